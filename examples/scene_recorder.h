@@ -162,12 +162,13 @@ class SceneRecorder {
     } else if (const auto* plane = std::get_if<carom::Halfspace>(&shape)) {
       set({plane->normal.x(), plane->normal.y(), plane->normal.z(), plane->offset});
     } else if (const auto* hull = std::get_if<carom::Hull>(&shape)) {
-      add_vertices(hull->geometry->points());
+      for (const Eigen::Vector3f& point : hull->geometry->points()) add_vertex(point);
     } else if (const auto* mesh = std::get_if<carom::Mesh>(&shape)) {
       const carom::MeshGeometry& geometry = *mesh->geometry;
       set({geometry.rules().one_sided ? 1.0f : 0.0f, geometry.rules().thickness});
-      add_vertices(geometry.vertices());
-      for (const auto& triangle : geometry.triangles()) {
+      for (size_t i = 0; i < geometry.vertices().size(); ++i) add_vertex(geometry.vertex(i));
+      for (size_t i = 0; i < geometry.triangles().size(); ++i) {
+        const std::array<uint32_t, 3> triangle = geometry.corner_numbers(i);
         triangles_.insert(triangles_.end(), triangle.begin(), triangle.end());
       }
     }
@@ -184,10 +185,8 @@ class SceneRecorder {
     body_shape_.push_back(static_cast<uint32_t>(body_shape_.size()));
   }
 
-  void add_vertices(std::span<const Eigen::Vector3f> points) {
-    for (const Eigen::Vector3f& point : points) {
-      vertices_.insert(vertices_.end(), point.data(), point.data() + 3);
-    }
+  void add_vertex(const Eigen::Vector3f& point) {
+    vertices_.insert(vertices_.end(), point.data(), point.data() + 3);
   }
 
   static void add_range(std::vector<uint32_t>& ranges, size_t first, size_t end) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "carom/shapes/scaled.h"
 #include "fuzz/check_pair.h"
 #include "fuzz/points_input.h"
 #include "fuzz/random_shape.h"
@@ -101,6 +102,14 @@ MaybeShape take_compound(double size, Data& data) {
   return Compound{*compound};
 }
 
+// The shape, or one of its kind with a scale.
+Shape take_scaled(const Shape& shape, Data& data) {
+  const bool is_scaled = take<uint8_t>(data) % 2 != 0;
+  if (!is_scaled || !has_geometry(kind_of(shape))) return shape;
+  const Result<Shape> result = scaled(shape, (take_vector(data) * 2).cast<float>());
+  return result ? *result : shape;
+}
+
 std::optional<TestPair> take_pair(const std::array<ShapeKind, 2>& kinds, uint8_t flags,
                                   Data& data) {
   const double size = take_size(data);
@@ -113,6 +122,8 @@ std::optional<TestPair> take_pair(const std::array<ShapeKind, 2>& kinds, uint8_t
   pair.b.position = pair.a.position + take_vector(data) * 2 * size;
   pair.a.orientation = take_orientation(data);
   pair.b.orientation = take_orientation(data);
+  pair.a.shape = take_scaled(pair.a.shape, data);
+  pair.b.shape = take_scaled(pair.b.shape, data);
   return pair;
 }
 

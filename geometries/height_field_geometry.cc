@@ -4,8 +4,10 @@
 #include <cfloat>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/float_environment.h"
+#include "geometries/height_field_limits.h"
 #include "geometries/height_pyramid.h"
 #include "geometries/inner_edges.h"
 #include "geometries/part.h"
@@ -14,16 +16,11 @@
 namespace carom {
 namespace {
 
-// Beyond these a triangle might have no area, so that it would be none of a mesh.
-constexpr double kMostSlope = 0x1p40, kMostAspect = 0x1p40;
-
 size_t size_of(HeightType type) {
   return type == HeightType::float32 ? sizeof(float) : sizeof(int16_t);
 }
 
 Error bad_field(const std::string& what) { return {"the height field has " + what}; }
-
-bool is_spacing(float step) { return step >= 2 * FLT_MIN && step <= FLT_MAX; }
 
 // The least stride that rows of so many samples may have, in either direction.
 bool is_stride(ptrdiff_t stride, size_t row_bytes, size_t rows) {
@@ -146,7 +143,7 @@ class HeightFieldMaker {
       field.materials_ = std::make_unique_for_overwrite<uint8_t[]>(cells);
       std::copy_n(grid.materials, cells, field.materials_.get());
     }
-    field.pyramid_ = std::make_unique<HeightPyramid>(field.cells_x(), field.cells_y());
+    field.pyramid_ = std::make_shared<HeightPyramid>(field.cells_x(), field.cells_y());
     if (Result<void> taken = take_all(given, field); !taken) return taken.error();
     return made;
   }
@@ -256,6 +253,14 @@ HeightFieldGeometry::HeightFieldGeometry() = default;
 HeightFieldGeometry::~HeightFieldGeometry() = default;
 
 std::array<Eigen::Vector3f, 3> HeightFieldGeometry::corners(size_t triangle) const {
+  std::array<Eigen::Vector3f, 3> corners = grid_corners(triangle);
+  if (!is_scaled_) return corners;
+  for (Eigen::Vector3f& corner : corners) corner = corner.cwiseProduct(factors_).eval();
+  if (is_mirrored_) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
+std::array<Eigen::Vector3f, 3> HeightFieldGeometry::grid_corners(size_t triangle) const {
   const auto cell = static_cast<uint32_t>(triangle / 2);
   const uint32_t j = cell / cells_x(), i = cell - j * cells_x();
   // Number by number: copies of points would wait for the stores of their numbers.
@@ -274,8 +279,10 @@ std::array<Eigen::Vector3f, 3> HeightFieldGeometry::corners(size_t triangle) con
 std::array<uint32_t, 3> HeightFieldGeometry::corner_numbers(size_t triangle) const {
   const auto cell = static_cast<uint32_t>(triangle / 2);
   const uint32_t first = cell + cell / cells_x(), last = first + nx_ + 1;
-  return triangle % 2 == 0 ? std::array{first, first + 1, last}
-                           : std::array{first, last, first + nx_};
+  std::array<uint32_t, 3> numbers =
+      triangle % 2 == 0 ? std::array{first, first + 1, last} : std::array{first, last, first + nx_};
+  if (is_mirrored_) std::swap(numbers[1], numbers[2]);
+  return numbers;
 }
 
 bool HeightFieldGeometry::is_inner_edge(size_t triangle, unsigned edge, bool from_front) const {
@@ -288,13 +295,14 @@ bool HeightFieldGeometry::is_inner_edge(size_t triangle, unsigned edge, bool fro
                                                   {{0, 0, 1, 0}, {0, 1, 1, 2}, {-1, 0, -1, 0}}};
   const auto cell = static_cast<uint32_t>(triangle / 2);
   const uint32_t j = cell / cells_x(), i = cell - j * cells_x();
-  const Neighbour& over = kNeighbours[triangle % 2][edge];
+  // The corners of a mirrored triangle are 0, 2, 1 of the grid, so that its edges are 2, 1, 0.
+  const Neighbour& over = kNeighbours[triangle % 2][is_mirrored_ ? 2 - edge : edge];
   const uint32_t cell_i = i + over.cell_i, cell_j = j + over.cell_j;
   // Less than zero is greater than all.
   if (cell_i >= cells_x() || cell_j >= cells_y() || is_hole(cell_i, cell_j)) return false;
   const auto [a, b, c] = corners(triangle);
-  const InnerSides inner =
-      inner_sides({wide(a), wide(b), wide(c)}, edge, wide(point(i + over.i, j + over.j)));
+  const Eigen::Vector3f across = point(i + over.i, j + over.j).cwiseProduct(factors_);
+  const InnerSides inner = inner_sides({wide(a), wide(b), wide(c)}, edge, wide(across));
   return from_front ? inner.from_front : inner.from_back;
 }
 
@@ -307,6 +315,7 @@ uint8_t HeightFieldGeometry::inner_edges(size_t triangle, bool from_front) const
 }
 
 size_t HeightFieldGeometry::bytes() const {
+  if (is_scaled_) return sizeof *this;
   const size_t samples = own_samples_ ? static_cast<size_t>(row_stride_) * ny_ : 0;
   const size_t materials = materials_ ? size_t{cells_x()} * cells_y() : 0;
   return sizeof *this + samples + materials + pyramid_->bytes();
@@ -314,6 +323,7 @@ size_t HeightFieldGeometry::bytes() const {
 
 Result<void> HeightFieldGeometry::update(const HeightWindow& window, const HeightSamples& samples) {
   const FloatEnvironment environment;
+  if (is_scaled_) return bad_field("a scale: the field that has the samples is to be updated");
   return HeightFieldMaker::update(window, samples, *this);
 }
 

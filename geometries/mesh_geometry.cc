@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <cmath>
-#include <numeric>
 #include <string>
 
 #include "base/float_environment.h"
-#include "base/outward.h"
-#include "base/tolerances.h"
 #include "geometries/inner_edges.h"
+#include "geometries/mesh_storage.h"
 #include "geometries/part.h"
-#include "trees/tree.h"
+#include "geometries/shared_edges.h"
+#include "geometries/triangle_measures.h"
 
 namespace carom {
 namespace {
@@ -19,49 +17,23 @@ namespace {
 using Eigen::Vector3f;
 using Corners = std::array<uint32_t, 3>;
 
-double length(const Double3& v) { return std::sqrt(dot(v, v)); }
-
-// Numbers the places of the vertices: vertices at one place get the same number.
-std::vector<uint32_t> places_of(std::span<const Vector3f> vertices) {
-  const auto is_before = [&](uint32_t a, uint32_t b) {
-    const Vector3f &u = vertices[a], &v = vertices[b];
-    return std::lexicographical_compare(u.data(), u.data() + 3, v.data(), v.data() + 3);
-  };
-  std::vector<uint32_t> order(vertices.size()), places(vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), is_before);
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool is_new = i == 0 || is_before(order[i - 1], order[i]);
-    places[order[i]] = is_new ? static_cast<uint32_t>(i) : places[order[i - 1]];
-  }
-  return places;
-}
-
-// An edge of a triangle, by the numbers of the places of its ends.
-struct Edge {
-  uint32_t low, high;
-  uint32_t triangle;
-  uint8_t index;
-
-  bool same_place(const Edge& other) const { return low == other.low && high == other.high; }
-  friend bool operator<(const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle, a.index) <
-           std::tie(b.low, b.high, b.triangle, b.index);
-  }
-};
-
 }  // namespace
 
 class MeshMaker {
  public:
   MeshMaker(std::span<const Vector3f> vertices, std::span<const Corners> triangles,
             const MeshRules& rules)
-      : mesh_(new MeshGeometry()) {
-    mesh_->vertices_.reserve(vertices.size() + 1);
-    mesh_->vertices_.assign(vertices.begin(), vertices.end());
-    mesh_->vertices_.push_back(Vector3f::Zero());
-    mesh_->triangles_.assign(triangles.begin(), triangles.end());
+      : mesh_(new MeshGeometry()), storage_(std::make_shared<MeshGeometry::Storage>()) {
+    storage_->vertices.reserve(vertices.size() + 1);
+    storage_->vertices.assign(vertices.begin(), vertices.end());
+    storage_->vertices.push_back(Vector3f::Zero());
+    storage_->triangles.assign(triangles.begin(), triangles.end());
+    storage_->edges.resize(triangles.size());
+    mesh_->vertices_ = std::span(storage_->vertices).first(vertices.size());
+    mesh_->triangles_ = storage_->triangles;
+    mesh_->edges_ = storage_->edges;
     mesh_->rules_ = rules;
+    mesh_->storage_ = storage_;
   }
 
   std::shared_ptr<const MeshGeometry> make() {
@@ -77,84 +49,66 @@ class MeshMaker {
   }
 
   void find_degenerate() {
-    mesh_->edges_.resize(mesh_->triangles_.size());
-    for (size_t t = 0; t < mesh_->triangles_.size(); ++t) {
-      const auto [a, b, c] = corners(t);
-      const double area = length(cross(minus(b, a), minus(c, a)));
-      const double sides = length(minus(b, a)) * length(minus(c, a));
-      mesh_->edges_[t].is_degenerate = !(area > kWithoutArea * sides);
-      mesh_->degenerate_count_ += mesh_->edges_[t].is_degenerate;
+    for (size_t t = 0; t < storage_->edges.size(); ++t) {
+      storage_->edges[t].is_degenerate = !has_area(corners(t));
+      mesh_->degenerate_count_ += storage_->edges[t].is_degenerate;
     }
   }
 
   void find_inner_edges() {
-    const std::vector<uint32_t> places = places_of(mesh_->vertices_);
-    std::vector<Edge> edges;
-    for (uint32_t t = 0; t < mesh_->triangles_.size(); ++t) {
-      if (mesh_->is_degenerate(t)) continue;
-      for (uint8_t i = 0; i < 3; ++i) {
-        const uint32_t a = places[mesh_->triangles_[t][i]];
-        const uint32_t b = places[mesh_->triangles_[t][(i + 1) % 3]];
-        edges.push_back({std::min(a, b), std::max(a, b), t, i});
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    for (size_t first = 0, end = 0; first < edges.size(); first = end) {
-      while (end < edges.size() && edges[end].same_place(edges[first])) ++end;
-      if (end - first != 2) continue;
-      join(edges[first], edges[first + 1]);
-      join(edges[first + 1], edges[first]);
-    }
-  }
-
-  void join(const Edge& edge, const Edge& other) {
-    const Double3 across = corner(*mesh_, other.triangle, (other.index + 2u) % 3);
-    const InnerSides inner = inner_sides(corners(edge.triangle), edge.index, across);
-    const auto bit = static_cast<uint8_t>(1u << edge.index);
-    MeshGeometry::Edges& edges = mesh_->edges_[edge.triangle];
-    if (inner.from_front) edges.inner_from_front |= bit;
-    if (inner.from_back) edges.inner_from_back |= bit;
+    for_each_shared_edge(*mesh_, [&](const TriangleEdge& edge, const TriangleEdge& other) {
+      const Double3 across = corner(*mesh_, other.triangle, (other.index + 2u) % 3);
+      const InnerSides inner = inner_sides(corners(edge.triangle), edge.index, across);
+      const auto bit = static_cast<uint8_t>(1u << edge.index);
+      MeshGeometry::Edges& edges = storage_->edges[edge.triangle];
+      if (inner.from_front) edges.inner_from_front |= bit;
+      if (inner.from_back) edges.inner_from_back |= bit;
+    });
   }
 
   void find_boxes() {
     std::vector<TreeBox> boxes(mesh_->triangles_.size());
     for (size_t t = 0; t < boxes.size(); ++t) {
-      const TreeBox box = box_of_triangle(t);
+      const TreeBox box = box_of_triangle(corners(t), double{mesh_->rules_.thickness});
       for (int axis = 0; axis < 3; ++axis) {
-        float& lower = mesh_->lower_[axis];
-        float& upper = mesh_->upper_[axis];
+        float& lower = storage_->lower[axis];
+        float& upper = storage_->upper[axis];
         lower = t == 0 ? box.lower[axis] : std::min(lower, box.lower[axis]);
         upper = t == 0 ? box.upper[axis] : std::max(upper, box.upper[axis]);
       }
       boxes[t] = mesh_->is_degenerate(t) ? TreeBox{{1, 1, 1}, {-1, -1, -1}} : box;
     }
-    mesh_->tree_ = std::make_unique<BoxTree>(boxes);
-  }
-
-  TreeBox box_of_triangle(size_t triangle) const {
-    const auto all = corners(triangle);
-    const double thickness = mesh_->rules_.thickness;
-    const Double3 back = way_back(all[0], all[1], all[2], thickness);
-    const double slack = thickness * (greatest(back) > 0 ? 0x1p-24 : 1);
-    TreeBox box;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double lower = std::min({all[0][axis], all[1][axis], all[2][axis]});
-      const double upper = std::max({all[0][axis], all[1][axis], all[2][axis]});
-      box.lower[axis] = downwards(lower + std::min(back[axis], 0.0) - slack);
-      box.upper[axis] = -downwards(-(upper + std::max(back[axis], 0.0) + slack));
-    }
-    return box;
-  }
-
-  static float downwards(double x) {
-    return round_downwards(std::clamp(x, -double{FLT_MAX}, double{FLT_MAX}));
+    storage_->tree = std::make_unique<BoxTree>(boxes);
+    mesh_->lower_ = storage_->lower;
+    mesh_->upper_ = storage_->upper;
+    mesh_->tree_ = storage_->tree.get();
   }
 
   std::shared_ptr<MeshGeometry> mesh_;
+  std::shared_ptr<MeshGeometry::Storage> storage_;
 };
 
 MeshGeometry::MeshGeometry() = default;
+MeshGeometry::MeshGeometry(const MeshGeometry&) = default;
 MeshGeometry::~MeshGeometry() = default;
+
+Corners MeshGeometry::corner_numbers(size_t triangle) const {
+  const auto& [a, b, c] = triangles_[triangle];
+  return is_mirrored_ ? Corners{a, c, b} : Corners{a, b, c};
+}
+
+std::array<Vector3f, 3> MeshGeometry::corners(size_t triangle) const {
+  const auto [a, b, c] = corner_numbers(triangle);
+  return {vertex(a), vertex(b), vertex(c)};
+}
+
+size_t MeshGeometry::Storage::bytes() const {
+  return sizeof *this + vertices.capacity() * sizeof(Vector3f) +
+         (triangles.capacity() + across.capacity()) * sizeof(Corners) +
+         edges.capacity() * sizeof(Edges) + tree->bytes();
+}
+
+size_t MeshGeometry::bytes() const { return sizeof *this + (is_scaled_ ? 0 : storage_->bytes()); }
 
 Result<std::shared_ptr<const MeshGeometry>> make_mesh(std::span<const Vector3f> vertices,
                                                       std::span<const Corners> triangles,

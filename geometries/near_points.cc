@@ -183,15 +183,16 @@ HWY_EXPORT(keep_near_points);
 
 namespace {
 
-// The triangles of a height field, for as long as they are looked at.
+// The triangles of a surface whose corners lie nowhere, for as long as they are looked at.
 struct WrittenTriangles {
   std::array<float, 9 * BoxTree::kMostAtOnce + 1> vertices;
   std::array<uint32_t, BoxTree::kMostAtOnce> numbers;
 
-  WrittenTriangles(const HeightFieldGeometry& field, std::span<const uint32_t> triangles) {
+  template <class Geometry>
+  WrittenTriangles(const Geometry& surface, std::span<const uint32_t> triangles) {
     float* next = vertices.data();
     for (uint32_t i = 0; i < triangles.size(); ++i) {
-      for (const Eigen::Vector3f& corner : field.corners(triangles[i])) {
+      for (const Eigen::Vector3f& corner : corners_of(surface, triangles[i])) {
         for (int axis = 0; axis < 3; ++axis) *next++ = corner[axis];
       }
       numbers[i] = i;
@@ -216,10 +217,11 @@ void keep_near_points(const TriangleArrays& mesh, const SeenPoints& points, floa
 
 void keep_near_points(const Surface& surface, const SeenPoints& points, float most,
                       std::span<const uint32_t> triangles, NearPoints& near) {
-  if (surface.mesh()) {
-    return keep_near_points(arrays_of(*surface.mesh()), points, most, triangles, near);
+  if (const MeshGeometry* mesh = surface.plain_mesh()) {
+    return keep_near_points(arrays_of(*mesh), points, most, triangles, near);
   }
-  const WrittenTriangles written(*surface.field(), triangles);
+  const auto written =
+      surface.visit([&](const auto& geometry) { return WrittenTriangles(geometry, triangles); });
   const TriangleArrays arrays = {written.vertices.data(), WrittenTriangles::kCorners.data(),
                                  triangles.size()};
   keep_near_points(arrays, points, most, std::span(written.numbers).first(triangles.size()), near);

@@ -146,6 +146,16 @@ PartBall ball_of(const Part& part) {
   return {};
 }
 
+void put_triangle_of_others(const Surface& surface, size_t triangle, Row* rows,
+                            const std::array<float, 3>& origin) {
+  surface.visit(
+      [&](const auto& geometry) { put_visited_triangle(geometry, triangle, rows, origin); });
+}
+
+std::array<Eigen::Vector3f, 3> Surface::corners_of_others(size_t triangle) const {
+  return visit([triangle](const auto& geometry) { return corners_of(geometry, triangle); });
+}
+
 // Hamilton's product, scaled so that the squares of its numbers neither underflow nor overflow.
 Row product(const Row& q, const Row& p) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];

@@ -92,12 +92,12 @@ inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Writes the three rows of a triangle, without inner edges; corners are counted from `origin`. It
-// writes straight to the destination: copying rows that were just stored as floats would wait for
-// those stores.
+// Writes the three rows of a triangle, without inner edges; corners are counted from `origin`.
+// `surface`: as Surface::visit() hands it over. It writes straight to the destination: copying rows
+// that were just stored as floats would wait for those stores.
 template <class Geometry>
-void put_triangle_rows(const Geometry& surface, size_t triangle, Row* rows,
-                       const std::array<float, 3>& origin = {}) {
+void put_visited_triangle(const Geometry& surface, size_t triangle, Row* rows,
+                          const std::array<float, 3>& origin = {}) {
   const MeshRules rules = rules_of(surface);
   const float fourth[] = {rules.thickness, rules.one_sided ? 1.0f : 0.0f, 0.0f};
   const std::array<Eigen::Vector3f, 3> corners = corners_of(surface, triangle);
@@ -106,9 +106,15 @@ void put_triangle_rows(const Geometry& surface, size_t triangle, Row* rows,
     rows[i] = {v.x() - origin[0], v.y() - origin[1], v.z() - origin[2], fourth[i]};
   }
 }
+// The same for all surfaces but meshes without a scale.
+void put_triangle_of_others(const Surface& surface, size_t triangle, Row* rows,
+                            const std::array<float, 3>& origin);
 inline void put_triangle_rows(const Surface& surface, size_t triangle, Row* rows,
                               const std::array<float, 3>& origin = {}) {
-  surface.visit([&](const auto& geometry) { put_triangle_rows(geometry, triangle, rows, origin); });
+  if (const MeshGeometry* mesh = surface.plain_mesh()) {
+    return put_visited_triangle(*mesh, triangle, rows, origin);
+  }
+  put_triangle_of_others(surface, triangle, rows, origin);
 }
 
 inline Double3 wide(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }

@@ -34,7 +34,7 @@ bool MeshPath::serves(const PlacedPart& mesh, const BodySweep& mesh_sweep, const
                       const BodySweep& shape_sweep) {
   return mesh.kind() == ShapeKind::mesh && !shape.has_parts() &&
          shape.kind() != ShapeKind::halfspace && !mesh_sweep.is_turning() &&
-         !shape_sweep.is_turning();
+         !shape_sweep.is_turning() && !mesh.is_scaled();
 }
 
 MeshPath::MeshPath(const PlacedPart& mesh, const BodySweep& mesh_sweep, const PlacedPart& shape,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "geometries/height_search.h"
 #include "impacts/slack.h"
 
 namespace carom {
@@ -165,9 +164,9 @@ class PartSweep {
       const auto met_all = [&](std::span<const uint32_t> items) {
         std::for_each(items.begin(), items.end(), met);
       };
-      if (tree.placed.kind() == ShapeKind::height_field) {
-        find_admitted(
-            tree.placed.field(), [&](const TreeBox& box) { return region.crosses(box); }, met_all);
+      // Those that MeshPath does not serve.
+      if (tree.placed.kind() == ShapeKind::height_field || tree.placed.is_scaled()) {
+        tree.placed.find_admitted([&](const TreeBox& box) { return region.crosses(box); }, met_all);
       } else {
         tree.placed.find_touching({region.box()}, met_all);
       }

@@ -1,6 +1,7 @@
 #include "io/shape_arrays.h"
 
 #include <cfloat>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -176,6 +177,20 @@ Result<void> check_roundings(const SceneShapes& shapes, const std::string& path)
   return {};
 }
 
+Result<void> check_scales(const SceneShapes& shapes, const std::string& path) {
+  for (size_t i = 0; i < shapes.scale.size(); ++i) {
+    const auto& [x, y, z] = shapes.scale[i];
+    const auto is_factor = [](float factor) { return std::isfinite(factor) && factor != 0; };
+    if (is_factor(x) && is_factor(y) && is_factor(z)) continue;
+    char factors[64];
+    std::snprintf(factors, sizeof factors, "(%.9g, %.9g, %.9g)", double{x}, double{y}, double{z});
+    return member_error(
+        path, "shape_scale",
+        element(i) + "is " + factors + " (finite factors other than 0 were expected)");
+  }
+  return {};
+}
+
 // Checks that an array has `expected` elements, or none if it may be absent.
 template <class T>
 Result<void> check_size(const std::string& path, const std::string& name,
@@ -196,35 +211,11 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
       check_size(path, "shape_child_range", shapes.child_range, count, true),
       check_size(path, "shape_height_range", shapes.height_range, count, true),
       check_size(path, "shape_radius", shapes.rounding, count, true),
+      check_size(path, "shape_scale", shapes.scale, count, true),
       check_size(path, "child_position", shapes.child_position, children, false),
       check_size(path, "child_orientation", shapes.child_orientation, children, false),
   });
 }
-
-// A member that may hold nothing but `neutral`, which leaves every shape as it is.
-template <class T>
-Result<void> refuse_other_than(const NpzReader& reader, const std::string& name, const T& neutral,
-                               const std::string& expected) {
-  if (!reader.has(name)) return {};
-  Result<std::vector<uint8_t>> kind = reader.read<uint8_t>("shape_kind", {kAny});
-  if (!kind) return kind.error();
-  Result<std::vector<T>> values = reader.read<T>(name, {kind->size()});
-  if (!values) return values.error();
-  for (size_t i = 0; i < values->size(); ++i) {
-    if ((*values)[i] == neutral) continue;
-    return member_error(reader.path(), name,
-                        element(i) + "makes another shape, which this version of Carom does not " +
-                            "support (" + expected + " was expected)");
-  }
-  return {};
-}
-
-// Members that make other shapes of the kinds that this version knows: to pass over them would be
-// to answer for other shapes.
-Result<void> refuse_changed_shapes(const NpzReader& reader) {
-  return refuse_other_than(reader, "shape_scale", std::array{1.0f, 1.0f, 1.0f}, "1 1 1");
-}
-
 }  // namespace
 
 bool takes_rounding(uint8_t kind) {
@@ -263,11 +254,11 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
   if (result) result = check_children(shapes, path);
   if (result) result = check_heights(shapes, path);
   if (result) result = check_roundings(shapes, path);
+  if (result) result = check_scales(shapes, path);
   return result;
 }
 
 Result<SceneShapes> read_shapes(const NpzReader& reader) {
-  if (Result<void> known = refuse_changed_shapes(reader); !known) return known.error();
   SceneShapes shapes;
   Result<std::vector<uint8_t>> kind = reader.read<uint8_t>("shape_kind", {kAny});
   if (!kind) return kind.error();
@@ -288,6 +279,7 @@ Result<SceneShapes> read_shapes(const NpzReader& reader) {
       read_optional(reader, "shape_height_range", {count}, shapes.height_range),
       read_optional(reader, "heights", {kAny}, shapes.heights),
       read_optional(reader, "shape_radius", {count}, shapes.rounding),
+      read_optional(reader, "shape_scale", {count}, shapes.scale),
   });
   if (!read) return read.error();
   const uint64_t children = shapes.child_shape.size();
@@ -321,6 +313,7 @@ Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer) {
       write_optional(writer, "shape_height_range", shapes.height_range),
       write_optional(writer, "heights", shapes.heights),
       write_optional(writer, "shape_radius", shapes.rounding),
+      write_optional(writer, "shape_scale", shapes.scale),
   });
 }
 

@@ -24,14 +24,15 @@ struct SceneShapes {
   std::vector<std::array<float, 3>> child_position;
   std::vector<std::array<float, 4>> child_orientation;
   std::vector<std::array<uint32_t, 2>> height_range;
-  std::vector<float> heights;   // metres, NaN makes holes
-  std::vector<float> rounding;  // shape_radius, metres; empty: all are 0
+  std::vector<float> heights;               // metres, NaN makes holes
+  std::vector<float> rounding;              // shape_radius, metres; empty: all are 0
+  std::vector<std::array<float, 3>> scale;  // factors of the set that the other arrays describe
 };
 
 // Reads the shapes. Checks that kinds are known, ranges and indices lie inside their arrays,
 // children are not compounds, height fields have as many heights as their grids have samples,
-// roundings are not negative and are 0 for kinds that have none, and each kind has the arrays it
-// needs. Other parameters are not checked.
+// scales are finite and not 0, roundings are not negative and are 0 for kinds that have none, and
+// each kind has the arrays it needs. Other parameters are not checked.
 Result<SceneShapes> read_shapes(const NpzReader& reader);
 // The checks alone; `path` is for the message.
 Result<void> check_shapes(const SceneShapes& shapes, const std::string& path);

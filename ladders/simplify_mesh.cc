@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "carom/shapes/scaled.h"
 #include "ladders/surface_distance.h"
 
 namespace carom::ladders {
@@ -64,6 +65,10 @@ std::shared_ptr<const MeshGeometry> collapse(const Surface& surface, float error
 }  // namespace
 
 std::optional<SimplerMesh> simplify_mesh(const MeshGeometry& mesh, double most) {
+  if (mesh.is_scaled()) {
+    const auto own = unshared(mesh);
+    return own ? simplify_mesh(**own, most) : std::nullopt;
+  }
   const Surface surface(mesh);
   if (surface.corners.empty() || !(most > 0)) return std::nullopt;
   const double extent =

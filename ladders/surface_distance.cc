@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "carom/shapes/scaled.h"
 #include "trees/tree.h"
 
 namespace carom::ladders {
@@ -126,6 +127,9 @@ class Distance {
 }  // namespace
 
 double furthest(const MeshGeometry& from, const MeshGeometry& to, double most) {
+  // Trees and vertices are those before a scale.
+  if (from.is_scaled()) return furthest(**unshared(from), to, most);
+  if (to.is_scaled()) return furthest(from, **unshared(to), most);
   const auto size_of = [](const MeshGeometry& mesh) -> double {
     return std::max(mesh.lower().cwiseAbs().maxCoeff(), mesh.upper().cwiseAbs().maxCoeff());
   };

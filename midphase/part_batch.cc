@@ -68,7 +68,7 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& surface,
     const std::array<float, 3> from = origin_of_rows(origin);
     surface.surface().visit([&](const auto& geometry) {
       for (uint32_t i = 0; i < count; ++i) {
-        put_triangle_rows(geometry, triangle(i), rows + kRows * i, from);
+        put_visited_triangle(geometry, triangle(i), rows + kRows * i, from);
       }
     });
     for (size_t i = 0; surface.one_sided && i < count; ++i) {

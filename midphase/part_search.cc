@@ -36,7 +36,8 @@ class PartOf {
 
 // Whether two bodies with trees are taken apart together.
 bool are_of_one_tree_kind(const PlacedPart& a, const PlacedPart& b) {
-  return a.kind() == b.kind() && a.kind() != ShapeKind::height_field;
+  return a.kind() == b.kind() && a.kind() != ShapeKind::height_field && !a.is_scaled() &&
+         !b.is_scaled();
 }
 
 // Whether A is taken apart before B: a compound goes before a surface, and a mesh before a height
@@ -75,7 +76,7 @@ class PartSearch {
   void take_apart(const PlacedPart& tree, const PlacedPart& other, const GoOn& go_on,
                   const NearParts& both) const {
     if (tree.kind() == ShapeKind::height_field && SolidOverField::serves(other) &&
-        find_cells_near(tree, other, both)) {
+        !tree.is_scaled() && find_cells_near(tree, other, both)) {
       return;
     }
     if (is_surface(tree.kind()) && !other.has_parts()) {
@@ -231,7 +232,7 @@ class PartSearch {
                       });
     } else if (other.kind() == ShapeKind::sphere) {
       tree.find_touching(SeenSphere(tree, other).surroundings(reach_), use);
-    } else if (other.kind() == ShapeKind::height_field) {
+    } else if (other.kind() == ShapeKind::height_field && !other.is_scaled()) {
       find_items_near(tree, other, use);
     } else {
       tree.find_touching(SeenPart(tree, other).surroundings(reach_), use);
@@ -244,14 +245,9 @@ class PartSearch {
   void find_items_near(const PlacedPart& tree, const PlacedPart& field, const Use& use) const {
     const FrameChange change = to_frame_of(field, tree);
     const double reach = with_slack(reach_, tree.size() + field.size() + greatest(change.offset));
-    const auto is_near = [&](const TreeBox& box) {
-      return may_touch(field.field(), change.around(box, reach));
-    };
-    if (tree.kind() == ShapeKind::height_field) {
-      find_admitted(tree.field(), is_near, use);
-    } else {
-      tree.tree().find_admitted(is_near, use);
-    }
+    tree.find_admitted(
+        [&](const TreeBox& box) { return may_touch(field.field(), change.around(box, reach)); },
+        use);
   }
 
   const double reach_;

@@ -3,8 +3,30 @@
 #include <algorithm>
 
 #include "geometries/height_search.h"
+#include "geometries/scaled_frame.h"
 
 namespace carom {
+namespace {
+
+// Searches of a part as if it had no scale.
+void touching_without_scale(const PlacedPart& part, const RoundedBox& box, ItemsFound found) {
+  part.kind() == ShapeKind::height_field ? find_touching(part.field(), box, found)
+                                         : part.tree().find_touching(box, found);
+}
+
+void below_without_scale(const PlacedPart& part, const Double3& normal, double limit,
+                         FunctionRef<void(uint32_t)> found) {
+  part.kind() == ShapeKind::height_field ? find_below(part.field(), normal, limit, found)
+                                         : part.tree().find_below(normal, limit, found);
+}
+
+void admitted_without_scale(const PlacedPart& part, FunctionRef<bool(const TreeBox& box)> admits,
+                            ItemsFound found) {
+  part.kind() == ShapeKind::height_field ? find_admitted(part.field(), admits, found)
+                                         : part.tree().find_admitted(admits, found);
+}
+
+}  // namespace
 
 bool PlacedPart::has_no_items() const {
   return kind() == ShapeKind::height_field ? is_empty(field()) : tree().is_empty();
@@ -18,23 +40,34 @@ double PlacedPart::size() const {
 }
 
 void PlacedPart::find_touching(const RoundedBox& box, ItemsFound found) const {
-  kind() == ShapeKind::height_field ? carom::find_touching(field(), box, found)
-                                    : tree().find_touching(box, found);
+  is_scaled() ? touching_without_scale(*this, ScaledFrame(surface()).divided(box), found)
+              : touching_without_scale(*this, box, found);
 }
 
 void PlacedPart::find_below(const Double3& normal, double limit,
                             FunctionRef<void(uint32_t)> found) const {
-  kind() == ShapeKind::height_field ? carom::find_below(field(), normal, limit, found)
-                                    : tree().find_below(normal, limit, found);
+  if (!is_scaled()) return below_without_scale(*this, normal, limit, found);
+  const ScaledFrame frame(surface());
+  below_without_scale(*this, frame.divided_normal(normal), frame.limit_for(normal, limit), found);
 }
 
+void PlacedPart::find_admitted(FunctionRef<bool(const TreeBox& box)> admits,
+                               ItemsFound found) const {
+  if (!is_scaled()) return admitted_without_scale(*this, admits, found);
+  const ScaledFrame frame(surface());
+  admitted_without_scale(
+      *this, [&](const TreeBox& box) { return admits(frame.multiplied(box)); }, found);
+}
+
+// Only about the nearest and the lowest: the thickness does not matter.
 uint32_t PlacedPart::near_item(const TreeBox& box) const {
-  return kind() == ShapeKind::height_field ? near_triangle(field(), box) : tree().near_item(box);
+  const TreeBox own = is_scaled() ? ScaledFrame(surface()).divided(box) : box;
+  return kind() == ShapeKind::height_field ? near_triangle(field(), own) : tree().near_item(own);
 }
 
 uint32_t PlacedPart::low_item(const Double3& normal) const {
-  return kind() == ShapeKind::height_field ? low_triangle(field(), normal)
-                                           : tree().low_item(normal);
+  const Double3 own = is_scaled() ? ScaledFrame(surface()).divided_normal(normal) : normal;
+  return kind() == ShapeKind::height_field ? low_triangle(field(), own) : tree().low_item(own);
 }
 
 PlacedPart PlacedPart::item(uint32_t index) const {

@@ -47,6 +47,10 @@ struct PlacedPart {
   }
   const CompoundGeometry& compound() const { return *geometry_at<CompoundGeometry>(part->rows[0]); }
 
+  // Whether it is a surface with a scale: its searches go through the tree or the cells of the one
+  // without, and code for whole trees and whole cells does not serve it.
+  bool is_scaled() const { return is_surface(kind()) && surface().is_scaled(); }
+
   // Only for those that have parts: the parts by their numbers, and the searches of a BoxTree of
   // their boxes. Height fields have no tree, and search their cells.
   PlacedPart item(uint32_t index) const;
@@ -57,6 +61,7 @@ struct PlacedPart {
   double size() const;  // the greatest coordinate of the boxes
   void find_touching(const RoundedBox& box, ItemsFound found) const;
   void find_below(const Double3& normal, double limit, FunctionRef<void(uint32_t)> found) const;
+  void find_admitted(FunctionRef<bool(const TreeBox& box)> admits, ItemsFound found) const;
   uint32_t near_item(const TreeBox& box) const;
   uint32_t low_item(const Double3& normal) const;
 

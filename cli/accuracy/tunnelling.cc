@@ -58,10 +58,11 @@ Result<std::unique_ptr<LoadedScene>> load(const TunnellingCommand& command) {
     return Error{command.scene + ": has no velocities, which say how bodies go on from a frame"};
   }
   // The oracle of motions knows polytopes with a radius alone.
-  for (const uint8_t kind : info.shapes.kind) {
-    if (!is_round(static_cast<ShapeKind>(kind))) continue;
-    return Error{command.scene + ": has a " + name(static_cast<ShapeKind>(kind)) +
-                 ", of which meetings are not measured"};
+  const BodiesOfKind bodies = (*scene)->player().bodies_of_kind();
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const auto kind = static_cast<ShapeKind>(i);
+    if (bodies[i] == 0 || !is_round(kind)) continue;
+    return Error{command.scene + ": has a " + name(kind) + ", of which meetings are not measured"};
   }
   const uint64_t frames = command.frames == 0 ? info.frames : command.frames;
   if (Result<void> read = (*scene)->load(frames); !read) return read.error();

@@ -23,10 +23,21 @@ struct CheckOptions {
   std::string json;
 };
 
+Eigen::Vector3f scale_of(const io::SceneShapes& shapes, size_t index) {
+  if (shapes.scale.empty()) return Eigen::Vector3f::Ones();
+  return Eigen::Map<const Eigen::Vector3f>(shapes.scale[index].data());
+}
+
+bool mirrors(const io::SceneShapes& shapes, size_t index) {
+  return (scale_of(shapes, index).array() < 0).count() % 2 != 0;
+}
+
 void add_vertices(const io::SceneShapes& shapes, ShapeReport& report) {
   const auto [first, count] = shapes.vertex_range[report.index];
+  const Eigen::Vector3f scale = scale_of(shapes, report.index);
   for (size_t i = first; i < size_t{first} + count; ++i) {
-    report.vertices.push_back(Eigen::Map<const Eigen::Vector3f>(shapes.vertices[i].data()));
+    const Eigen::Map<const Eigen::Vector3f> vertex(shapes.vertices[i].data());
+    report.vertices.push_back(vertex.cwiseProduct(scale));
   }
 }
 
@@ -48,6 +59,10 @@ void check_compound(const io::SceneShapes& shapes, ShapeReport& report) {
       report.problem = "child " + std::to_string(i - first) + " is a halfspace";
     }
   }
+  const bool is_scaled = scale_of(shapes, report.index) != Eigen::Vector3f::Ones();
+  if (!report.problem.empty() || !is_scaled) return;
+  const Result<Shape> shape = convert_shape(shapes, report.index);
+  if (!shape) report.problem = "it is " + shape.error().message;
 }
 
 // Why a shape (not a compound) is invalid; empty if it is valid.
@@ -75,6 +90,9 @@ ShapeReport report_of(const io::SceneShapes& shapes, size_t index) {
     const auto [first, count] = shapes.triangle_range[index];
     const auto begin = shapes.triangles.begin() + first;
     report.triangles.assign(begin, begin + count);
+    if (mirrors(shapes, index)) {
+      for (auto& [a, b, c] : report.triangles) std::swap(b, c);
+    }
     check_triangles(report);
   }
   return report;

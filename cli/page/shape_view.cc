@@ -288,18 +288,17 @@ struct Viewer {
   }
 
   Json operator()(const Mesh& mesh) const {
-    const auto vertices = mesh.geometry->vertices();
-    const float thickness = mesh.geometry->rules().thickness;
+    const MeshGeometry& geometry = *mesh.geometry;
+    const float thickness = geometry.rules().thickness;
     Faces faces;
     if (!(thickness > 0)) {
-      for (const Eigen::Vector3f& vertex : vertices) faces.add_point(vertex);
+      for (size_t i = 0; i < geometry.vertices().size(); ++i) faces.add_point(geometry.vertex(i));
     }
-    for (const auto& triangle : mesh.geometry->triangles()) {
+    for (size_t i = 0; i < geometry.triangles().size(); ++i) {
       if (thickness > 0) {
-        faces.add_prism({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]},
-                        thickness);
+        faces.add_prism(geometry.corners(i), thickness);
       } else {
-        faces.add_face(triangle);
+        faces.add_face(geometry.corner_numbers(i));
       }
     }
     return std::move(faces).json();
@@ -311,7 +310,7 @@ struct Viewer {
     Faces faces;
     for (uint32_t j = 0; j < grid.ny(); ++j) {
       for (uint32_t i = 0; i < grid.nx(); ++i) {
-        const Eigen::Vector3f point = grid.point(i, j);
+        const Eigen::Vector3f point = grid.point(i, j).cwiseProduct(grid.scale());
         faces.add_point(point.allFinite() ? point : Eigen::Vector3f(point.x(), point.y(), 0));
       }
     }

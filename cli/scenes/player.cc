@@ -43,7 +43,8 @@ Player::Player(const io::SceneInfo& info, std::vector<Shape> shapes)
 
 Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
   const std::vector<uint8_t>& kinds = info.shapes.kind;
-  if (std::all_of(kinds.begin(), kinds.end(), is_its_parameters)) return Player(info, {});
+  if (info.shapes.scale.empty() && std::all_of(kinds.begin(), kinds.end(), is_its_parameters))
+    return Player(info, {});
   Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
   if (!shapes) return shapes.error();
   return Player(info, std::move(*shapes));

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <iterator>
+#include <map>
+#include <tuple>
 #include <utility>
 
+#include "carom/base/function_ref.h"
 #include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "carom/shapes/scaled.h"
 #include "io/files/file.h"
 
 namespace carom::cli {
@@ -85,31 +90,28 @@ Result<Shape> convert_height_field(const io::SceneShapes& shapes, size_t index) 
   return Shape(HeightField{std::move(*field)});
 }
 
-// `converted` holds all shapes except compounds.
+// `child_of(i)` is shape i, which is no compound.
 Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
-                               const std::vector<Shape>& converted) {
+                               FunctionRef<Result<Shape>(uint32_t)> child_of) {
   const auto [first, count] = shapes.child_range[index];
   if (count == 0) return Error{"a compound without children"};
   std::vector<CompoundChild> children;
   children.reserve(count);
   for (size_t i = first; i < size_t{first} + count; ++i) {
-    const Shape& child = converted[shapes.child_shape[i]];
-    if (kind_of(child) == ShapeKind::halfspace) {
+    Result<Shape> child = child_of(shapes.child_shape[i]);
+    if (!child) return child.error();
+    if (kind_of(*child) == ShapeKind::halfspace) {
       return Error{"a compound with a halfspace as a child"};
     }
-    children.push_back({child, vector(shapes.child_position[i].data()),
+    children.push_back({std::move(*child), vector(shapes.child_position[i].data()),
                         Eigen::Quaternionf(shapes.child_orientation[i].data())});
   }
   Result<std::shared_ptr<const CompoundGeometry>> compound = make_compound(children);
   return Shape(compound ? Compound{std::move(*compound)} : Compound{});
 }
 
-bool is_compound(const io::SceneShapes& shapes, size_t index) {
-  return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
-}
-
-// The shape without its rounding. Not a compound.
-Result<Shape> convert_core(const io::SceneShapes& shapes, size_t index) {
+// The shape without its scale and its rounding. Not a compound.
+Result<Shape> convert_before_scale(const io::SceneShapes& shapes, size_t index) {
   const std::array<float, 8>& params = shapes.params[index];
   auto kind = static_cast<ShapeKind>(shapes.kind[index]);
   switch (kind) {
@@ -140,6 +142,85 @@ Result<Shape> convert_core(const io::SceneShapes& shapes, size_t index) {
   }
 }
 
+// The set of a shape under its scale, if it has one.
+Result<Shape> apply_scale(const io::SceneShapes& shapes, size_t index, Result<Shape> set) {
+  if (!set || shapes.scale.empty()) return set;
+  const Eigen::Vector3f scale = vector(shapes.scale[index].data());
+  if (scale == Eigen::Vector3f::Ones()) return set;
+  Result<Shape> result = scaled(*set, scale);
+  if (!result) return Error{"not valid with its scale: " + result.error().message};
+  return result;
+}
+
+void set_rounding(Shape& shape, float rounding) {
+  std::visit(
+      [rounding](auto& s) {
+        if constexpr (requires { s.rounding; }) s.rounding = rounding;
+      },
+      shape);
+}
+
+// A cone that its scale has turned upside down is the child of a compound.
+Result<Shape> apply_rounding(const io::SceneShapes& shapes, size_t index, Result<Shape> set) {
+  if (!set || shapes.rounding.empty() || shapes.rounding[index] == 0) return set;
+  const auto* compound = std::get_if<Compound>(&*set);
+  if (!compound) {
+    set_rounding(*set, shapes.rounding[index]);
+    return set;
+  }
+  CompoundChild child = compound->geometry->children()[0];
+  set_rounding(child.shape, shapes.rounding[index]);
+  auto rounded = make_compound(std::span(&child, 1));
+  if (!rounded) return rounded.error();
+  return Shape(Compound{std::move(*rounded)});
+}
+
+// What a file says of a set: its scale, then its rounding.
+Result<Shape> apply_both(const io::SceneShapes& shapes, size_t index, Result<Shape> set) {
+  return apply_rounding(shapes, index, apply_scale(shapes, index, std::move(set)));
+}
+
+// Converts shapes that differ in their scale and rounding alone once before these, so that they
+// share a geometry.
+class Converter {
+ public:
+  explicit Converter(const io::SceneShapes& shapes) : shapes_(shapes) {}
+
+  Result<Shape> operator()(size_t index) {
+    if (shapes_.scale.empty() || is_its_parameters(shapes_.kind[index])) {
+      return convert_simple_shape(shapes_, index);
+    }
+    const auto range = [index](const auto& ranges) {
+      return ranges.empty() ? Range{} : ranges[index];
+    };
+    const Key key = {shapes_.kind[index], bits(shapes_.params[index]), range(shapes_.vertex_range),
+                     range(shapes_.triangle_range), range(shapes_.height_range)};
+    auto place = known_.find(key);
+    if (place == known_.end()) {
+      Result<Shape> set = convert_before_scale(shapes_, index);
+      if (!set) return set;
+      place = known_.emplace(key, std::move(*set)).first;
+    }
+    return apply_both(shapes_, index, place->second);
+  }
+
+ private:
+  using Range = std::array<uint32_t, 2>;
+  using Key = std::tuple<uint8_t, std::array<uint32_t, 8>, Range, Range, Range>;
+
+  // Parameters may be NaN.
+  static std::array<uint32_t, 8> bits(const std::array<float, 8>& params) {
+    return std::bit_cast<std::array<uint32_t, 8>>(params);
+  }
+
+  const io::SceneShapes& shapes_;
+  std::map<Key, Shape> known_;
+};
+
+bool is_compound(const io::SceneShapes& shapes, size_t index) {
+  return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
+}
+
 Error shape_error(const std::string& source, size_t index, const Error& what) {
   return io::file_error(source,
                         "shape_kind: shape " + std::to_string(index) + " is " + what.message);
@@ -156,28 +237,29 @@ bool is_its_parameters(uint8_t kind) {
 }
 
 Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
-  Result<Shape> shape = convert_core(shapes, index);
-  if (shapes.rounding.empty() || !shape) return shape;
-  std::visit(
-      [&](auto& s) {
-        if constexpr (requires { s.rounding; }) s.rounding = shapes.rounding[index];
-      },
-      *shape);
-  return shape;
+  return apply_both(shapes, index, convert_before_scale(shapes, index));
+}
+
+Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index) {
+  if (!is_compound(shapes, index)) return convert_simple_shape(shapes, index);
+  const auto child_of = [&](uint32_t child) { return convert_simple_shape(shapes, child); };
+  return apply_scale(shapes, index, convert_compound(shapes, index, child_of));
 }
 
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
                                           const std::string& source) {
   std::vector<Shape> converted(shapes.kind.size(), Compound{});
+  Converter convert(shapes);
   for (size_t i = 0; i < converted.size(); ++i) {
     if (is_compound(shapes, i)) continue;
-    Result<Shape> shape = convert_simple_shape(shapes, i);
+    Result<Shape> shape = convert(i);
     if (!shape) return shape_error(source, i, shape.error());
     converted[i] = std::move(*shape);
   }
   for (size_t i = 0; i < converted.size(); ++i) {
     if (!is_compound(shapes, i)) continue;
-    Result<Shape> shape = convert_compound(shapes, i, converted);
+    const auto child_of = [&](uint32_t child) -> Result<Shape> { return converted[child]; };
+    Result<Shape> shape = apply_scale(shapes, i, convert_compound(shapes, i, child_of));
     if (!shape) return shape_error(source, i, shape.error());
     converted[i] = std::move(*shape);
   }

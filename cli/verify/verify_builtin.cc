@@ -106,6 +106,17 @@ ShapeKind kind_in_turn(size_t i) {
   }
 }
 
+// Scales every other hull, mesh and compound. Children of compounds are turned, which uneven
+// factors would shear.
+void add_scales(io::SceneShapes& shapes) {
+  shapes.scale.assign(shapes.kind.size(), {1, 1, 1});
+  for (size_t i = 1; i < shapes.kind.size(); i += 2) {
+    const auto kind = static_cast<ShapeKind>(shapes.kind[i]);
+    if (kind == ShapeKind::hull || kind == ShapeKind::mesh) shapes.scale[i] = {1, -0.75f, 1.25f};
+    if (kind == ShapeKind::compound) shapes.scale[i] = {1.25f, -1.25f, 1.25f};
+  }
+}
+
 // Makes all kinds from the half extents in `shapes`.
 void make_all_kinds(io::SceneShapes& shapes) {
   const size_t count = shapes.kind.size();
@@ -131,6 +142,7 @@ void make_all_kinds(io::SceneShapes& shapes) {
   for (size_t i = 0; i < count; ++i) {
     if (i % 2 == 0 && io::takes_rounding(shapes.kind[i])) shapes.rounding[i] = 0.1f;
   }
+  add_scales(shapes);
   shapes.params[16][6] = -1;      // the radius of a capsule
   shapes.vertices[5][1] = kNan;   // of a k-DOP
   shapes.vertices[8][1] = kNan;   // of a triangle

@@ -84,6 +84,11 @@ std::string parameters(const Hull& hull) {
   return with_rounding("of " + list(hull.geometry->points()), hull.rounding);
 }
 
+template <class Geometry>
+std::string scale_text(const Geometry& geometry) {
+  return geometry.is_scaled() ? " scale " + list(geometry.scale()) : "";
+}
+
 std::string parameters(const Mesh& mesh) {
   constexpr size_t kMost = 32;
   if (!mesh.geometry) return "that is invalid";
@@ -96,7 +101,8 @@ std::string parameters(const Mesh& mesh) {
     text += ' ' + std::to_string(a) + '-' + std::to_string(b) + '-' + std::to_string(c);
   }
   return text + (triangles.size() > kMost ? " ..." : "") + " thickness " +
-         text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
+         text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "") +
+         scale_text(*mesh.geometry);
 }
 
 std::string parameters(const HeightField& field) {
@@ -110,7 +116,7 @@ std::string parameters(const HeightField& field) {
   for (uint32_t i = 0; i < std::min<uint64_t>(count, kMost); ++i) {
     text += ' ' + text_of(grid.height(i % grid.nx(), i / grid.nx()));
   }
-  return text + (count > kMost ? " ..." : "");
+  return text + (count > kMost ? " ..." : "") + scale_text(grid);
 }
 
 std::string list(const Orientation& q) {

@@ -54,7 +54,7 @@ bool PointTimes::take_mesh(bool is_a, uint32_t body) {
   if (side.turns(body) || !side.is_valid(body)) return false;
   const MeshGeometry& mesh = *geometry_at<MeshGeometry>(side.body().row(body, 0));
   const MeshRules& rules = mesh.rules();
-  mesh_serves_ = rules.thickness == 0;
+  mesh_serves_ = rules.thickness == 0 && !mesh.is_scaled();
   target_.emplace(mesh, side.side.one_sided.value_or(rules.one_sided));
   orientation_ = side.body().orientation(body);
   turn_ = rotation_of(orientation_);

@@ -12,7 +12,7 @@
 ///   the same stages on the caller's own arrays (carom::Collidables), without state.
 /// - carom::cast(), carom::find_overlaps() and carom::find_nearest() query bodies that stand still.
 /// - carom::Shape lists the shapes; carom::make_hull(), carom::make_mesh() and
-///   carom::make_compound() build those with a geometry.
+///   carom::make_compound() build those with a geometry, carom::scaled() shapes under a scale.
 /// - carom::reference is all of it as plain scalar C++.
 ///
 /// Conventions: lengths in metres, world frame unless stated. Normals point from body A to body B.
@@ -52,6 +52,7 @@
 #include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "carom/shapes/orientation.h"
+#include "carom/shapes/scaled.h"
 #include "carom/shapes/shape.h"
 #include "carom/shapes/views.h"
 #include "carom/simd/isa.h"

@@ -38,6 +38,8 @@ SceneInfo full_info() {
   info.shapes.height_range[7] = {1, 6};
   info.shapes.heights = {9, 1, 2, 3, 4, 5, 6};
   info.shapes.rounding = {0, 0.5f, 0, 0, 0.25f, 0, 1, 0};
+  info.shapes.scale.resize(8, {1, 1, 1});
+  info.shapes.scale[2] = {-2, 0.5f, 1e-6f};
   info.body_shape = {0, 3, 2};
   info.body_motion = {0, 1, 2};
   info.layer = {1, 2, 3};
@@ -150,6 +152,7 @@ TEST_F(SceneTest, ReadsWhatItWritesAndWrapsAround) {
     EXPECT_EQ(read.shapes.child_orientation, info.shapes.child_orientation);
     EXPECT_EQ(read.shapes.height_range, info.shapes.height_range);
     EXPECT_EQ(read.shapes.heights, info.shapes.heights);
+    EXPECT_EQ(read.shapes.scale, info.shapes.scale);
     EXPECT_EQ(read.body_shape, info.body_shape);
     EXPECT_EQ(read.body_motion, info.body_motion);
     EXPECT_EQ(read.layer, info.layer);
@@ -268,12 +271,23 @@ TEST_F(SceneTest, WrongMembersAreNamed) {
               HasSubstr("member dt: has shape () (float64 (1,)"));
 }
 
-// They would make other shapes of the kinds that are known.
-TEST_F(SceneTest, MembersThatChangeAShapeAreNotPassedOver) {
-  for (const float factor : {2.0f, -1.0f, 0.0f, kNan}) {
-    EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, factor})),
-                HasSubstr("member shape_scale: element 0 makes another shape"));
+TEST_F(SceneTest, ScalesAreFiniteAndNotZero) {
+  for (const float factor : {0.0f, -0.0f, kNan, INFINITY}) {
+    EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, factor, 2})),
+                HasSubstr("member shape_scale: element 0 is (1, "));
   }
+  EXPECT_EQ(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 0, 2})),
+            path("bad.npz") +
+                ": member shape_scale: element 0 is (1, 0, 2) (finite factors other than 0 were "
+                "expected)");
+  EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1,)", {1})),
+              HasSubstr("member shape_scale: has shape (1,) (float32 (1, 3) was expected)"));
+  EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(2, 3)", {1, 1, 1, 1, 1, 1})),
+              HasSubstr("member shape_scale: has shape (2, 3)"));
+  EXPECT_EQ(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, -1, 2})), "");
+}
+
+TEST_F(SceneTest, OtherMembersArePassedOver) {
   EXPECT_EQ(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, 1})), "");
   EXPECT_EQ(error_with(array<float>("my_colours", "<f4", "(1,)", {1})), "");
 }
@@ -353,6 +367,7 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
               i.shapes.child_range.resize(200);
               i.shapes.height_range.resize(200);
               i.shapes.rounding.clear();
+              i.shapes.scale.resize(200, {1, 1, 1});
             }),
             "F: member shape_vertex_range: names 209715200 elements of 1048576 (at most 134217728 "
             "were expected)");

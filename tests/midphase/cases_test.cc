@@ -255,10 +255,12 @@ TEST(CompositeCases, OrderOfTrianglesChangesIndicesAlone) {
       std::swap(order[i - 1], order[composites.random().below(i)]);
     }
     Triangles shuffled;
-    for (const uint32_t i : order) shuffled.push_back(triangles[i]);
-    const auto vertices = mesh.geometry->vertices();
-    const Mesh other =
-        mesh_of({vertices.begin(), vertices.end()}, shuffled, mesh.geometry->rules());
+    for (const uint32_t i : order) shuffled.push_back(mesh.geometry->corner_numbers(i));
+    std::vector<Vector3f> vertices;
+    for (size_t i = 0; i < mesh.geometry->vertices().size(); ++i) {
+      vertices.push_back(mesh.geometry->vertex(i));
+    }
+    const Mesh other = mesh_of(vertices, shuffled, mesh.geometry->rules());
     TestPair pair =
         composites.pair(ShapeKind::mesh, ShapeKind::capsule, PositionType::float32, 1, 0);
     pair.a.shape = mesh;

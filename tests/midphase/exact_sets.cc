@@ -99,13 +99,14 @@ Mesh ExactSets::globe(double size, int n, const MeshRules& rules) {
 Mesh ExactSets::shattered(const Mesh& mesh) {
   std::vector<Eigen::Vector3f> vertices;
   Triangles triangles;
-  for (const auto& triangle : mesh.geometry->triangles()) {
+  for (size_t i = 0; i < mesh.geometry->triangles().size(); ++i) {
+    const auto corners = mesh.geometry->corners(i);
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-    for (const uint32_t corner : triangle) middle += mesh.geometry->vertices()[corner] / 3;
+    for (const Eigen::Vector3f& corner : corners) middle += corner / 3;
     const auto first = static_cast<uint32_t>(vertices.size());
     triangles.push_back({first, first + 1, first + 2});
-    for (const uint32_t corner : triangle) {
-      vertices.push_back(middle + 0.95f * (mesh.geometry->vertices()[corner] - middle));
+    for (const Eigen::Vector3f& corner : corners) {
+      vertices.push_back(middle + 0.95f * (corner - middle));
     }
   }
   return mesh_of(vertices, triangles, mesh.geometry->rules());

@@ -19,9 +19,7 @@ const MeshGeometry& geometry_of(const PlacedShape& body) {
 
 Triangle triangle_of(const MeshGeometry& mesh, size_t index) {
   Triangle triangle;
-  for (size_t i = 0; i < 3; ++i) {
-    triangle.corners[i] = mesh.vertices()[mesh.triangles()[index][i]];
-  }
+  triangle.corners = mesh.corners(index);
   triangle.thickness = mesh.rules().thickness;
   triangle.one_sided = mesh.rules().one_sided;
   return triangle;

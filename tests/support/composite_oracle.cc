@@ -77,13 +77,10 @@ void ExactParts::add(const Shape& shape, const Vec& position, const Eigen::Quate
     return;
   }
   const InnerEdges inner(*mesh);
-  const auto vertices = mesh->geometry->vertices();
   parts_.reserve(parts_.size() + mesh->geometry->triangles().size());
   for (uint32_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
     Triangle triangle;
-    for (size_t k = 0; k < 3; ++k) {
-      triangle.corners[k] = vertices[mesh->geometry->triangles()[i][k]];
-    }
+    triangle.corners = mesh->geometry->corners(i);
     triangle.thickness = mesh->geometry->rules().thickness;
     parts_.emplace_back(triangle, position, orientation, child.value_or(i));
     parts_.back().flap.emplace(parts_.back().shape, inner.of(i));

@@ -1,5 +1,9 @@
 #include "tests/support/composites.h"
 
+#include <cmath>
+
+#include "carom/shapes/scaled.h"
+
 namespace carom::test {
 
 Mesh mesh_of(const std::vector<Eigen::Vector3f>& vertices, const Triangles& triangles,
@@ -16,7 +20,28 @@ Mesh flat_grid(int n, float side, const MeshRules& rules) {
       n, side, [](float, float) { return 0.0f; }, rules);
 }
 
+Eigen::Vector3f Composites::scale() {
+  const bool is_uniform = scales_.chance(0.4);
+  Eigen::Vector3f factors;
+  for (int axis = 0; axis < 3; ++axis) {
+    factors[axis] = static_cast<float>(scales_.uniform(0.7, 1.4));
+    if (is_uniform) factors[axis] = factors[0];
+  }
+  for (float& factor : factors) factor = scales_.chance(0.2) ? -factor : factor;
+  return factors;
+}
+
 Mesh Composites::mesh(double size, size_t most_triangles) {
+  const Mesh mesh = mesh_without_scale(size, most_triangles);
+  return scales_.chance(0.25) ? Mesh{*scaled(mesh.geometry, scale())} : mesh;
+}
+
+HeightField Composites::height_field(double size) {
+  const HeightField field = field_without_scale(size);
+  return scales_.chance(0.25) ? HeightField{*scaled(field.geometry, scale())} : field;
+}
+
+Mesh Composites::mesh_without_scale(double size, size_t most_triangles) {
   const MeshRules rules = {
       .one_sided = random_.chance(0.2),
       .thickness = random_.chance(0.2) ? static_cast<float>(size * random_.uniform(0, 0.3)) : 0};
@@ -40,7 +65,7 @@ Mesh Composites::mesh(double size, size_t most_triangles) {
   return mesh_of(vertices, triangles, rules);
 }
 
-HeightField Composites::height_field(double size) {
+HeightField Composites::field_without_scale(double size) {
   const auto nx = static_cast<uint32_t>(2 + random_.below(3));
   const auto ny = static_cast<uint32_t>(2 + random_.below(3));
   const double steps = random_.chance(0.3) ? 0 : 2000, holes = random_.chance(0.5) ? 0 : 0.15;
@@ -64,8 +89,12 @@ HeightField Composites::height_field(double size) {
   return {*make_height_field(grid)};
 }
 
+// Children are turned: factors of one magnitude do not shear them.
 Compound Composites::compound(double size, size_t most_children) {
-  return compound_of_many(size, 1 + random_.below(most_children));
+  const Compound compound = compound_of_many(size, 1 + random_.below(most_children));
+  if (!scales_.chance(0.2)) return compound;
+  const Eigen::Vector3f factors = scale();
+  return {*scaled(compound.geometry, std::abs(factors.x()) * factors.cwiseSign())};
 }
 
 Compound Composites::compound_of_many(double size, size_t count) {

@@ -46,16 +46,22 @@ Mesh flat_grid(int n, float side, const MeshRules& rules = {});
 
 class Composites {
  public:
-  explicit Composites(uint64_t seed) : random_(seed), shapes_({}, random_) {}
+  explicit Composites(uint64_t seed) : random_(seed), scales_(seed + 1000), shapes_({}, random_) {}
 
   oracle::Random& random() { return random_; }
 
-  // A random set of triangles, some without area, or a terrain; about `size` large.
+  // Factors of about 1, often of one magnitude; a third of them mirror.
+  Eigen::Vector3f scale();
+
+  // A random set of triangles, some without area, or a terrain; about `size` large. A quarter have
+  // a scale.
   Mesh mesh(double size, size_t most_triangles = 24);
 
-  // A few cells of either type of sample, some of them holes; about `size` large.
+  // A few cells of either type of sample, some of them holes; about `size` large. A quarter have a
+  // scale.
   HeightField height_field(double size);
 
+  // A fifth have a scale.
   Compound compound(double size, size_t most_children = 6);
 
   Compound compound_of_many(double size, size_t count);
@@ -70,9 +76,12 @@ class Composites {
   TestPair pair(ShapeKind a, ShapeKind b, PositionType positions, double size, double distance);
 
  private:
+  Mesh mesh_without_scale(double size, size_t most_triangles);
+  HeightField field_without_scale(double size);
   Shape child_shape(double size);
 
   oracle::Random random_;
+  oracle::Random scales_;
   oracle::ConvexRandom shapes_;
 };
 

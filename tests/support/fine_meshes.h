@@ -70,7 +70,7 @@ inline std::vector<std::array<LongVector, 3>> triangles_of(const MeshGeometry& m
     if (mesh.is_degenerate(i)) continue;
     std::array<LongVector, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
-      corners[k] = mesh.vertices()[mesh.triangles()[i][k]].cast<long double>();
+      corners[k] = mesh.corners(i)[k].cast<long double>();
     }
     triangles.push_back(corners);
   }

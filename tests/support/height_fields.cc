@@ -34,8 +34,9 @@ Mesh mesh_like(const HeightFieldGeometry& field) {
   std::vector<Eigen::Vector3f> vertices;
   for (uint32_t j = 0; j < field.ny(); ++j) {
     for (uint32_t i = 0; i < field.nx(); ++i) {
-      const float z = is_used[vertices.size()] ? field.height(i, j) : field.lower().z();
-      vertices.push_back({field.x(i), field.y(j), z});
+      Eigen::Vector3f vertex = field.point(i, j).cwiseProduct(field.scale());
+      if (!is_used[vertices.size()]) vertex.z() = field.lower().z();
+      vertices.push_back(vertex);
     }
   }
   return mesh_of(vertices, triangles);

@@ -17,7 +17,7 @@ InnerEdges::InnerEdges(const Mesh& mesh) : mesh_(*mesh.geometry), edges_(mesh_.t
 }
 
 std::array<float, 3> InnerEdges::place(uint32_t triangle, size_t i) const {
-  const Eigen::Vector3f& v = mesh_.vertices()[mesh_.triangles()[triangle][i % 3]];
+  const Eigen::Vector3f v = mesh_.corners(triangle)[i % 3];
   return {v.x() + 0.0f, v.y() + 0.0f, v.z() + 0.0f};
 }
 

@@ -1,7 +1,8 @@
-// Worlds with height fields: steps equal those of worlds with meshes of the same triangles, and an
-// update counts from when the world is told.
+// Worlds with height fields, with and without a scale: steps equal those of worlds with meshes of
+// the same triangles, and an update counts from when the world is told.
 #include <gtest/gtest.h>
 
+#include "carom/shapes/scaled.h"
 #include "carom/world/world.h"
 #include "tests/support/height_fields.h"
 #include "tests/world/crowds.h"
@@ -57,21 +58,38 @@ void expect_same_step(World& a, World& b) {
   EXPECT_TRUE(as_bytes(a.contacts()) == as_bytes(b.contacts()));
 }
 
-TEST(HeightFieldWorld, StepsEqualThoseOfMeshes) {
-  oracle::Random random(2);
-  const auto field = geometry_of(random_heights(21, 19, 0.4, 0.02, random));
+void expect_same_steps(const Shape& ground, const Mesh& mesh) {
   for (const Detail detail : {Detail::contact, Detail::manifold, Detail::regions}) {
     for (const float distance : {0.0f, 0.2f}) {
       const WorldSettings settings = {.detail = detail, .contact_distance = distance};
-      Crowd fields(settings, HeightField{field}), meshes(settings, mesh_like(*field));
+      Crowd grounds(settings, ground), meshes(settings, mesh);
       oracle::Random first(3), second(3);
       for (int step = 0; step < 6; ++step) {
         SCOPED_TRACE(step);
-        expect_same_step(fields.world(), meshes.world());
-        fields.move(first);
+        expect_same_step(grounds.world(), meshes.world());
+        grounds.move(first);
         meshes.move(second);
       }
     }
+  }
+}
+
+TEST(HeightFieldWorld, StepsEqualThoseOfMeshes) {
+  oracle::Random random(2);
+  const auto field = geometry_of(random_heights(21, 19, 0.4, 0.02, random));
+  expect_same_steps(HeightField{field}, mesh_like(*field));
+}
+
+// Names of points too, which are part of a contact.
+TEST(HeightFieldWorld, StepsOnGroundWithAScaleEqualThoseOfMeshes) {
+  oracle::Random random(2);
+  const std::shared_ptr<const HeightFieldGeometry> field =
+      geometry_of(random_heights(21, 19, 0.4, 0.02, random));
+  for (const Eigen::Vector3f& scale : {Eigen::Vector3f(-1, 0.9f, 1.2f), {1.1f, 1.1f, 1.1f}}) {
+    const auto with_scale = *scaled(field, scale);
+    expect_same_steps(HeightField{with_scale}, mesh_like(*with_scale));
+    const auto mesh = *scaled(mesh_like(*field).geometry, scale);
+    expect_same_steps(Mesh{mesh}, Mesh{*unshared(*mesh)});
   }
 }
 

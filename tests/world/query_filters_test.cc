@@ -7,6 +7,7 @@
 #include "carom/base/thread_arena.h"
 #include "carom/results/result_arrays.h"
 #include "carom/results/result_row.h"
+#include "carom/shapes/scaled.h"
 #include "tests/support/cast_checks.h"
 #include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
@@ -233,8 +234,8 @@ Shape made(const Shape& shape, bool one_sided) {
     const MeshGeometry& geometry = *mesh->geometry;
     MeshRules rules = geometry.rules();
     rules.one_sided = one_sided;
-    return mesh_of({geometry.vertices().begin(), geometry.vertices().end()},
-                   {geometry.triangles().begin(), geometry.triangles().end()}, rules);
+    const auto changed = make_mesh(geometry.vertices(), geometry.triangles(), rules);
+    return Mesh{*scaled(*changed, geometry.scale())};
   }
   const auto* compound = std::get_if<Compound>(&shape);
   if (!compound) return shape;

@@ -62,9 +62,8 @@ class Slabs {
 
 void add_mesh(const MeshGeometry& mesh, const Part* frame, Slabs& slabs) {
   const Turn turn = frame ? frame->turn() : kNotTurned;
-  for (const std::array<uint32_t, 3>& triangle : mesh.triangles()) {
-    for (const uint32_t v : triangle) {
-      const Eigen::Vector3f& p = mesh.vertices()[v];
+  for (size_t triangle = 0; triangle < mesh.triangles().size(); ++triangle) {
+    for (const Eigen::Vector3f& p : mesh.corners(triangle)) {
       const Double3 point = turned(turn, {p.x(), p.y(), p.z()});
       slabs.add(frame ? plus(frame->position, point) : point, mesh.rules().thickness);
     }

@@ -68,10 +68,14 @@ struct HeightWindow {
 /// (i, j) and (i + 1, j + 1), whose diagonal parts it into two triangles, fronts towards +z:
 /// triangle 2 c has the corners (i, j), (i + 1, j), (i + 1, j + 1), and triangle 2 c + 1 the
 /// corners (i, j), (i + 1, j + 1), (i, j + 1). Sub-shape indices are these numbers. A cell with a
-/// corner that is a hole is not part of the surface. Threads may share it while none updates it.
+/// corner that is a hole is not part of the surface. Threads may share it while none updates it. A
+/// field that scaled() made (carom/shapes/scaled.h) shares the samples of another one, and has a
+/// scale: what is asked by samples is then before the scale; triangles and bounds are after it.
 class CAROM_EXPORT HeightFieldGeometry {
  public:
   ~HeightFieldGeometry();
+  HeightFieldGeometry(const HeightFieldGeometry&) = delete;
+  HeightFieldGeometry& operator=(const HeightFieldGeometry&) = delete;
 
   uint32_t nx() const { return nx_; }           ///< samples along x
   uint32_t ny() const { return ny_; }           ///< samples along y
@@ -114,8 +118,17 @@ class CAROM_EXPORT HeightFieldGeometry {
   /// The greatest magnitude that is_height() takes.
   float greatest_height() const { return most_; }
 
-  /// The corners of a triangle, metres.
+  /// The factors of the samples along the axes of the body's frame; (1, 1, 1) unless scaled() made
+  /// this field.
+  const Eigen::Vector3f& scale() const { return factors_; }
+  /// Whether a factor of scale() is not 1.
+  bool is_scaled() const { return is_scaled_; }
+
+  /// The corners of a triangle, metres, counter-clockwise as seen from its front. If scale()
+  /// mirrors, the second and the third corner have changed places.
   std::array<Eigen::Vector3f, 3> corners(size_t triangle) const;
+  /// The corners of a triangle before the scale, in the order of the grid. For Carom's own use.
+  std::array<Eigen::Vector3f, 3> grid_corners(size_t triangle) const;
   /// The numbers j nx + i of the corners of a triangle.
   std::array<uint32_t, 3> corner_numbers(size_t triangle) const;
   /// As MeshGeometry::inner_edges(): found from the heights around the triangle.
@@ -131,7 +144,8 @@ class CAROM_EXPORT HeightFieldGeometry {
   /// Upper corner of the same box.
   const Eigen::Vector3f& upper() const { return upper_; }
 
-  /// Memory of this geometry in bytes, without samples in the caller's memory.
+  /// Memory of this geometry in bytes, without samples in the caller's memory, and of a field with
+  /// a scale without what it shares.
   size_t bytes() const;
 
   /// Changes the samples of a window. `samples` are those of the window, of the type of the field.
@@ -139,7 +153,7 @@ class CAROM_EXPORT HeightFieldGeometry {
   /// Fails, and changes nothing, if the window is not inside the grid, or a sample is infinite or
   /// too great; one that the caller has written is a hole then. While it runs no other thread may
   /// use the geometry. A world must be told afterwards: World::set_shape() with the same geometry.
-  /// Compounds that have it as a child must be made again.
+  /// Compounds that have it as a child, and fields that scaled() made of it, must be made again.
   Result<void> update(const HeightWindow& window, const HeightSamples& samples = {});
 
   /// Heights of blocks of cells. For Carom's own use.
@@ -156,6 +170,7 @@ class CAROM_EXPORT HeightFieldGeometry {
 
  private:
   friend class HeightFieldMaker;
+  friend class ScaledFieldMaker;
   HeightFieldGeometry();
 
   static float place(uint32_t index, double middle, float step) {
@@ -169,13 +184,16 @@ class CAROM_EXPORT HeightFieldGeometry {
   bool borrows_ = false;
   float scale_ = 1, offset_ = 0;
   float most_ = 0;  // of a height
+  bool is_scaled_ = false, is_mirrored_ = false;
   const std::byte* samples_ = nullptr;
   ptrdiff_t row_stride_ = 0;
   std::unique_ptr<std::byte[]> own_samples_;
-  std::unique_ptr<uint8_t[]> materials_;
+  std::shared_ptr<uint8_t[]> materials_;
   Eigen::Vector3f lower_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f upper_ = Eigen::Vector3f::Zero();
-  std::unique_ptr<HeightPyramid> pyramid_;
+  std::shared_ptr<HeightPyramid> pyramid_;
+  Eigen::Vector3f factors_ = Eigen::Vector3f::Ones();
+  std::shared_ptr<const HeightFieldGeometry> source_;  // of a field with a scale
 };
 
 /// Makes a height field. Fails if a count or a spacing is out of range, a spacing is more than 2^40

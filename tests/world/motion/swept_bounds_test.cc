@@ -49,7 +49,7 @@ Skeleton skeleton_of(const MeshGeometry& mesh) {
   std::vector<Vector3f> corners;
   for (size_t i = 0; i < mesh.triangles().size(); ++i) {
     if (mesh.is_degenerate(i)) continue;
-    for (const uint32_t corner : mesh.triangles()[i]) corners.push_back(mesh.vertices()[corner]);
+    for (const Vector3f& corner : mesh.corners(i)) corners.push_back(corner);
   }
   return points_with(corners);
 }
