@@ -41,6 +41,21 @@ inline constexpr Real kNearSegment = Real(0x1p-16);
 template <>
 inline constexpr double kNearSegment<double> = 0x1p-44;
 
+// Near the axis of a cylinder or cone the direction away from it is rounding. A normal with less
+// than this share across the axis does not need it.
+inline constexpr float kAlongAxis = 0x1p-12f;
+
+// Of a cone whose coordinates are all below this, in scaled units, squares of sizes would vanish in
+// float32. Squares of lengths of sides are at least kLeastSlant.
+inline constexpr float kSmallProfile = 0x1p-40f;
+inline constexpr float kLeastSlant = 0x1p-100f;
+
+// The search for the nearest point of an ellipsoid: the least value of its unknown, how near the
+// sum is to one before the last step (what is left is some squares of this), and the most steps.
+inline constexpr float kLeastShift = 0x1p-60f;
+inline constexpr float kNearSurface = 0x1p-9f;
+inline constexpr size_t kMostEllipsoidSteps = 8;
+
 // A quaternion whose squared norm lies between these is used as it is; any other is first scaled by
 // a power of two.
 inline constexpr float kLeastSquaredNorm = 0x1p-60f;

@@ -1,20 +1,25 @@
-// The pairs of kinds that have a kernel.
+// The pairs of kinds that have a test.
 #pragma once
 
-#include "carom/shapes/shape.h"
+#include <string>
+#include <vector>
+
+#include "narrowphase/pairs/pair_kinds.h"
 
 namespace carom::bench {
 
 struct KindPair {
-  const char* name;
+  std::string name;
   ShapeKind a;
   ShapeKind b;
 };
 
-inline constexpr KindPair kKindPairs[] = {
-#define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
-#include "narrowphase/pairs/pair_list.inc"
-#undef CAROM_PAIR
-};
+inline std::vector<KindPair> kind_pairs() {
+  std::vector<KindPair> pairs;
+  for (const PairKind& kind : kPairKinds) {
+    pairs.push_back({name(kind.a) + std::string("_") + name(kind.b), kind.a, kind.b});
+  }
+  return pairs;
+}
 
 }  // namespace carom::bench

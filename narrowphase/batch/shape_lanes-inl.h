@@ -237,6 +237,62 @@ struct BoxLanes : BoxOf<F> {
   HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
 };
 
+// Cylinders and cones: the rim is this far from the axis, and so far from the middle.
+template <ShapeKind kRound>
+struct RimLanes {
+  static constexpr ShapeKind kKind = kRound;
+  static constexpr bool kIsOriented = true;
+  F radius, half_length;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE RimLanes load(const BatchSide& side, const Bodies& bodies,
+                                  const PositionLanes&) {
+    F3 row;
+    F unused;
+    load_row<kRole, 1>(side, bodies, 0, row, unused);
+    return {row.x, row.y};
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(min(radius, half_length), splat(0)); }
+  HWY_INLINE F size() const { return hn::Add(radius, half_length); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    radius = hn::IfThenElseZero(keep, radius);
+    half_length = hn::IfThenElseZero(keep, half_length);
+  }
+  HWY_INLINE F extent() const { return max(radius, half_length); }
+  HWY_INLINE void scale(F s) {
+    radius = hn::Mul(radius, s);
+    half_length = hn::Mul(half_length, s);
+  }
+};
+using CylinderLanes = RimLanes<ShapeKind::cylinder>;
+using ConeLanes = RimLanes<ShapeKind::cone>;
+
+struct EllipsoidLanes {
+  static constexpr ShapeKind kKind = ShapeKind::ellipsoid;
+  static constexpr bool kIsOriented = true;
+  F3 semi_axes;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE EllipsoidLanes load(const BatchSide& side, const Bodies& bodies,
+                                        const PositionLanes&) {
+    EllipsoidLanes ellipsoid;
+    F unused;
+    load_row<kRole, 1>(side, bodies, 0, ellipsoid.semi_axes, unused);
+    return ellipsoid;
+  }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::Ge(min(min(semi_axes.x, semi_axes.y), semi_axes.z), splat(0));
+  }
+  HWY_INLINE F size() const { return sum_of_sizes(semi_axes); }
+  HWY_INLINE void clear_unless(Mask keep) { semi_axes = zero_unless(keep, semi_axes); }
+  HWY_INLINE F extent() const { return largest_component(semi_axes); }
+  HWY_INLINE void scale(F s) { semi_axes = semi_axes * s; }
+};
+
 struct TriangleLanes : TriangleOf<F> {
   template <class V>
   using Of = TriangleOf<V>;

@@ -32,20 +32,19 @@ inline constexpr std::array kListedPairKinds = {
 #undef CAROM_PAIR
 };
 
-// Round shapes with all convex ones.
+// Round shapes with all convex ones but spheres.
 template <ShapeKind kA, ShapeKind kB>
 void run_round(const Batch& batch) {
   run_round_pair(batch, kA, kB);
 }
 template <ShapeKind kA, ShapeKind kB>
-inline constexpr PairKind kRoundPairKind{
-    kA, kB, &run_round<kA, kB>, kA == ShapeKind::sphere ? MorePasses::none : MorePasses::manifold};
+inline constexpr PairKind kRoundPairKind{kA, kB, &run_round<kA, kB>, MorePasses::manifold};
 template <ShapeKind kRound>
 inline constexpr std::array kRoundPairKinds = {
-    kRoundPairKind<ShapeKind::sphere, kRound>,    kRoundPairKind<ShapeKind::capsule, kRound>,
-    kRoundPairKind<ShapeKind::aabb, kRound>,      kRoundPairKind<ShapeKind::box, kRound>,
-    kRoundPairKind<ShapeKind::dop, kRound>,       kRoundPairKind<ShapeKind::hull, kRound>,
-    kRoundPairKind<ShapeKind::halfspace, kRound>, kRoundPairKind<kRound, ShapeKind::triangle>};
+    kRoundPairKind<ShapeKind::capsule, kRound>, kRoundPairKind<ShapeKind::aabb, kRound>,
+    kRoundPairKind<ShapeKind::box, kRound>,     kRoundPairKind<ShapeKind::dop, kRound>,
+    kRoundPairKind<ShapeKind::hull, kRound>,    kRoundPairKind<ShapeKind::halfspace, kRound>,
+    kRoundPairKind<kRound, ShapeKind::triangle>};
 
 inline constexpr auto kPairKinds = [] {
   constexpr auto kCylinders = kRoundPairKinds<ShapeKind::cylinder>;
