@@ -81,8 +81,8 @@ std::string share_of(const StreamSpec& spec) {
 // Registers a stream on every runner. `access` is part of the name.
 void register_stream(const KindPair& kinds, const StreamSpec& spec, Detail detail,
                      const char* access) {
-  const std::string stream_name = kinds.name + "/" + name(detail) + "/" +
-                                  name(spec.storage) + "/" + share_of(spec) + "/" + access + "/";
+  const std::string stream_name = kinds.name + "/" + name(detail) + "/" + name(spec.storage) + "/" +
+                                  share_of(spec) + "/" + access + "/";
   for (const Runner& runner : all_runners()) {
     const auto body = [spec, detail, runner](benchmark::State& state) {
       const auto& stream = cached<PairStream>(spec);

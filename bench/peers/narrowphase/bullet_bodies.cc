@@ -67,8 +67,8 @@ std::shared_ptr<btCollisionShape> make_shape(PeerShape shape, const std::array<f
                                             bullet_vector(&size[6])),
           kMargin);
     case PeerShape::cylinder:
-      return with_margin(
-          std::make_shared<btCylinderShapeZ>(btVector3(size[0], size[0], size[1])), kMargin);
+      return with_margin(std::make_shared<btCylinderShapeZ>(btVector3(size[0], size[0], size[1])),
+                         kMargin);
     case PeerShape::cone:
       return with_margin(std::make_shared<btConeShapeZ>(size[0], 2 * size[1]), kMargin);
     case PeerShape::ellipsoid:
