@@ -73,6 +73,7 @@ inline constexpr float kArcCosines[kArcSamples] = {1.0f,         0.980785280f, 0
                                                    0.831469612f, 0.707106781f, 0.555570233f,
                                                    0.382683432f, 0.195090322f, 0.0f};
 inline constexpr size_t kArcSteps = 4;
+inline constexpr size_t kSolidArcSteps = 5;
 inline constexpr float kLongArc = 0x1p-3f;
 inline constexpr float kShortArc = 0x1p-4f;
 inline constexpr float kLastArc = 0x1p-9f;
@@ -86,6 +87,22 @@ inline constexpr float kRimStep = 0.6f;
 inline constexpr float kLeastBend = 0x1p-20f;
 inline constexpr float kLeastRim = 0x1p-20f;
 inline constexpr float kLeastWay = 0x1p-60f;
+
+// Searches for the widest gap of two ellipsoids, from a few directions with a smaller cosine
+// between them than kApart: the steps, the longest of them, and by how much a step at a saddle
+// lowers the greater curvature below zero, as a share of the difference of both and in scaled
+// units.
+inline constexpr size_t kEllipsoidStarts = 3;
+inline constexpr float kApart = 0.7f;
+inline constexpr size_t kEllipsoidSteps = 7;
+inline constexpr float kLongTurn = 0.4f;
+inline constexpr float kSaddleShare = 0.2f;
+inline constexpr float kSaddle = 0.01f;
+
+// Whether a point lies in an ellipsoid rounds by less than this share, if no axis is shorter than
+// kThinEllipsoid: a place rounds by some units of 2^-24.
+inline constexpr float kSureShare = 0x1p-6f;
+inline constexpr float kThinEllipsoid = 0x1p-10f;
 
 // A quaternion whose squared norm lies between these is used as it is; any other is first scaled by
 // a power of two.

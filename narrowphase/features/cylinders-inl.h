@@ -22,6 +22,7 @@ struct CylinderContactLanes {
   F separation;
   F3 normal, on_a;
   Mask is_sure;
+  Mask is_proven;  // that cores overlap which do
 };
 
 HWY_INLINE F sign_of(F v) { return hn::CopySign(splat(1), v); }
@@ -343,12 +344,13 @@ HWY_INLINE F3 furthest_point(const AxialCoreLanes& core, const F3& n) {
   return core.axis * hn::CopySign(core.half_length, along) + across * hn::Mul(core.rim, over);
 }
 
-HWY_INLINE Mask holds(const AxialCoreLanes& core, const F3& p) {
+HWY_INLINE Mask holds(const AxialCoreLanes& core, const F3& p, float most = kBesideCore) {
   const F along = dot(core.axis, p);
   const F3 across = p - core.axis * along;
-  const F reach = hn::Add(core.rim, splat(kBesideCore));
-  return hn::And(hn::Le(hn::Abs(along), hn::Add(core.half_length, splat(kBesideCore))),
-                 hn::Le(dot(across, across), hn::Mul(reach, reach)));
+  const F reach = hn::Add(core.rim, splat(most));
+  const Mask is_within = hn::And(hn::Le(hn::Abs(along), hn::Add(core.half_length, splat(most))),
+                                 hn::Le(dot(across, across), hn::Mul(reach, reach)));
+  return hn::And(hn::Ge(reach, splat(0)), is_within);
 }
 
 // Not inlined: two kinds of pairs call it, and it is long.
@@ -366,7 +368,9 @@ inline HWY_NOINLINE CylinderContactLanes cylinder_contact(const AxialCoreLanes& 
   const F3 on_b = (on_a + n * separation) - t;
   const Mask is_sure = hn::And(hn::And(found.has_ended, hn::Ge(pair.sine(), splat(kCrossingAxes))),
                                hn::And(holds(a, on_a), holds(b, on_b)));
-  return {separation, n, on_a, is_sure};
+  const F3 common = on_a + n * hn::Mul(separation, splat(0.5f));
+  const Mask is_common = hn::And(holds(a, common, -kSureGap), holds(b, common - t, -kSureGap));
+  return {separation, n, on_a, is_sure, hn::Or(is_common, hn::Gt(separation, splat(0)))};
 }
 
 }  // namespace carom::HWY_NAMESPACE

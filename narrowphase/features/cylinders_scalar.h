@@ -320,12 +320,13 @@ inline Vector3<float> furthest_point(const AxialCore& core, const Vector3<float>
   return core.axis * std::copysign(core.half_length, along) + across * (core.rim * over);
 }
 
-// Whether a point lies in the core, or beside it by no more than kBesideCore.
-inline bool holds(const AxialCore& core, const Vector3<float>& p) {
+// Whether a point lies in the core, or beside it by no more than `most`.
+inline bool holds(const AxialCore& core, const Vector3<float>& p, float most = kBesideCore) {
   const float along = dot(core.axis, p);
   const Vector3<float> across = p - core.axis * along;
-  const float reach = core.rim + kBesideCore;
-  return std::fabs(along) <= core.half_length + kBesideCore && dot(across, across) <= reach * reach;
+  const float reach = core.rim + most;
+  return reach >= 0 && std::fabs(along) <= core.half_length + most &&
+         dot(across, across) <= reach * reach;
 }
 
 // `t`: from the middle of A to that of B.

@@ -39,6 +39,7 @@ struct CapsuleCylinder {
     const F3 on_a = (middle + contact.on_a) + n * capsule.radius;
     report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, n, on_a,
            (on_a + n * separation) - pose.d);
+    if (HWY_UNLIKELY(report.marks_unsure())) report.mark_unproven(hn::Not(contact.is_proven));
   }
 };
 

@@ -30,6 +30,7 @@ struct CylinderCylinder {
     const Mask is_sure = hn::And(contact.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
     report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, contact.normal,
            contact.on_a, (contact.on_a + contact.normal * separation) - pose.d);
+    if (HWY_UNLIKELY(report.marks_unsure())) report.mark_unproven(hn::Not(contact.is_proven));
   }
 };
 
