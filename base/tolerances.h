@@ -41,6 +41,69 @@ inline constexpr Real kNearSegment = Real(0x1p-16);
 template <>
 inline constexpr double kNearSegment<double> = 0x1p-44;
 
+// Near the axis of a cylinder or cone the direction away from it is rounding. A normal with less
+// than this share across the axis does not need it.
+inline constexpr float kAlongAxis = 0x1p-12f;
+
+// Of a cone whose coordinates are all below this, in scaled units, squares of sizes would vanish in
+// float32. Squares of lengths of sides are at least kLeastSlant.
+inline constexpr float kSmallProfile = 0x1p-40f;
+inline constexpr float kLeastSlant = 0x1p-100f;
+
+// The search for the nearest point of an ellipsoid: the least value of its unknown, how near the
+// sum is to one before the last step (what is left is some squares of this), and the most steps.
+inline constexpr float kLeastShift = 0x1p-60f;
+inline constexpr float kNearSurface = 0x1p-9f;
+inline constexpr size_t kMostEllipsoidSteps = 8;
+
+// Cylinders, in scaled units. Axes with a smaller sine between them have no frame in float32.
+inline constexpr float kCrossingAxes = 0x1p-5f;
+
+// A shorter half of a segment has no direction in float32.
+inline constexpr float kShortAxis = 0x1p-12f;
+
+// Both points of a contact may lie beside the shapes by this: some roundings of their places.
+inline constexpr float kBesideCore = 0x1p-18f;
+
+// Searches on arcs: samples of a quarter, their cosines, the steps of Newton's method, the longest
+// of them (three quarters of a sample), one where the curve is no peak, and one that is short
+// enough to be the last: the gap is then off by the square of what is left, the square of this.
+inline constexpr size_t kArcSamples = 9;
+inline constexpr float kArcCosines[kArcSamples] = {1.0f,         0.980785280f, 0.923879533f,
+                                                   0.831469612f, 0.707106781f, 0.555570233f,
+                                                   0.382683432f, 0.195090322f, 0.0f};
+inline constexpr size_t kArcSteps = 4;
+inline constexpr size_t kSolidArcSteps = 5;
+inline constexpr float kLongArc = 0x1p-3f;
+inline constexpr float kShortArc = 0x1p-4f;
+inline constexpr float kLastArc = 0x1p-9f;
+inline constexpr float kNotEnded = 0x1p-16f;
+
+// Searches for two rims: the steps, the longest of them as a share of the sine between the
+// direction and the nearer axis, the least product of curvatures of a peak, the least distance from
+// an axis, and the least square of a direction's length.
+inline constexpr size_t kRimSteps = 7;
+inline constexpr float kRimStep = 0.6f;
+inline constexpr float kLeastBend = 0x1p-20f;
+inline constexpr float kLeastRim = 0x1p-20f;
+inline constexpr float kLeastWay = 0x1p-60f;
+
+// Searches for the widest gap of two ellipsoids, from a few directions with a smaller cosine
+// between them than kApart: the steps, the longest of them, and by how much a step at a saddle
+// lowers the greater curvature below zero, as a share of the difference of both and in scaled
+// units.
+inline constexpr size_t kEllipsoidStarts = 3;
+inline constexpr float kApart = 0.7f;
+inline constexpr size_t kEllipsoidSteps = 7;
+inline constexpr float kLongTurn = 0.4f;
+inline constexpr float kSaddleShare = 0.2f;
+inline constexpr float kSaddle = 0.01f;
+
+// Whether a point lies in an ellipsoid rounds by less than this share, if no axis is shorter than
+// kThinEllipsoid: a place rounds by some units of 2^-24.
+inline constexpr float kSureShare = 0x1p-6f;
+inline constexpr float kThinEllipsoid = 0x1p-10f;
+
 // A quaternion whose squared norm lies between these is used as it is; any other is first scaled by
 // a power of two.
 inline constexpr float kLeastSquaredNorm = 0x1p-60f;

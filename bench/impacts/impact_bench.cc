@@ -58,7 +58,7 @@ void register_stream(const KindPair& kinds, const MotionSpec& spec, bool contact
 }  // namespace
 
 void register_impacts(const Options& options) {
-  for (const KindPair& kinds : kKindPairs) {
+  for (const KindPair& kinds : kind_pairs()) {
     const auto has = [&](ShapeKind kind) { return kinds.a == kind || kinds.b == kind; };
     if (has(ShapeKind::halfspace)) continue;
     const bool is_slow = has(ShapeKind::hull) || has(ShapeKind::dop);

@@ -81,8 +81,8 @@ std::string share_of(const StreamSpec& spec) {
 // Registers a stream on every runner. `access` is part of the name.
 void register_stream(const KindPair& kinds, const StreamSpec& spec, Detail detail,
                      const char* access) {
-  const std::string stream_name = std::string(kinds.name) + "/" + name(detail) + "/" +
-                                  name(spec.storage) + "/" + share_of(spec) + "/" + access + "/";
+  const std::string stream_name = kinds.name + "/" + name(detail) + "/" + name(spec.storage) + "/" +
+                                  share_of(spec) + "/" + access + "/";
   for (const Runner& runner : all_runners()) {
     const auto body = [spec, detail, runner](benchmark::State& state) {
       const auto& stream = cached<PairStream>(spec);
@@ -205,8 +205,8 @@ void register_terrain(size_t count, bool is_field) {
 }  // namespace
 
 void register_narrowphase(const Options& options) {
-  for (const KindPair& kinds : kKindPairs) {
-    if (std::count(std::begin(kInDepth), std::end(kInDepth), std::string(kinds.name)) > 0) {
+  for (const KindPair& kinds : kind_pairs()) {
+    if (std::count(std::begin(kInDepth), std::end(kInDepth), kinds.name) > 0) {
       register_in_depth(kinds, options.pairs);
     } else if (kinds.a == ShapeKind::hull && kinds.b == ShapeKind::hull) {
       register_hulls(kinds, options.pairs);

@@ -26,6 +26,13 @@ Capsule draw_capsule(oracle::Random& random) {
   return {-end, end, draw_size(random) / 2};
 }
 
+// A cylinder or a cone.
+template <class Rim>
+Rim draw_rim(oracle::Random& random) {
+  const float radius = draw_size(random);
+  return {radius, draw_size(random)};
+}
+
 Triangle draw_triangle(oracle::Random& random) {
   Triangle triangle;
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
@@ -75,6 +82,12 @@ Shape draw_shape(ShapeKind kind, oracle::Random& random, std::span<const Hull> h
       hull.rounding = draw_size(random) / 10;
       return hull;
     }
+    case ShapeKind::cylinder:
+      return draw_rim<Cylinder>(random);
+    case ShapeKind::cone:
+      return draw_rim<Cone>(random);
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{draw_half(random)};
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>(), draw_size(random)};
     default:

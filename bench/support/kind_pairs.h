@@ -1,23 +1,32 @@
-// The pairs of kinds that have a kernel, and some of boxes and hulls with a rounding.
+// The pairs of kinds that have a test; of boxes and hulls with a rounding some.
 #pragma once
 
-#include "carom/shapes/shape.h"
+#include <string>
+#include <vector>
+
+#include "narrowphase/pairs/pair_kinds.h"
 
 namespace carom::bench {
 
 struct KindPair {
-  const char* name;
+  std::string name;
   ShapeKind a;
   ShapeKind b;
 };
 
-inline constexpr KindPair kKindPairs[] = {
-#define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
-#include "narrowphase/pairs/pair_list.inc"
-#undef CAROM_PAIR
-    {"sphere_rounded_box", ShapeKind::sphere, ShapeKind::rounded_box},
-    {"rounded_box_triangle", ShapeKind::rounded_box, ShapeKind::triangle},
-    {"rounded_box_rounded_box", ShapeKind::rounded_box, ShapeKind::rounded_box},
-    {"rounded_hull_rounded_hull", ShapeKind::rounded_hull, ShapeKind::rounded_hull}};
+constexpr bool is_rounded(ShapeKind kind) { return core_kind(kind) != kind; }
+
+inline std::vector<KindPair> kind_pairs() {
+  using enum ShapeKind;
+  std::vector<KindPair> pairs;
+  for (const PairKind& kind : kPairKinds) {
+    const bool is_one_of_few = kind.a == kind.b || kind.a == sphere || kind.b == triangle;
+    const bool has_hull = kind.a == rounded_hull || kind.b == rounded_hull;
+    const bool has_rounding = is_rounded(kind.a) || is_rounded(kind.b);
+    if (has_rounding && (!is_one_of_few || (has_hull && kind.a != kind.b))) continue;
+    pairs.push_back({name(kind.a) + std::string("_") + name(kind.b), kind.a, kind.b});
+  }
+  return pairs;
+}
 
 }  // namespace carom::bench

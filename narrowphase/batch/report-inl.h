@@ -96,6 +96,15 @@ struct LaneReport {
     store_answer(overlap, answer);
   }
 
+  // For lanes whose answer is good, but whose decision is not proven. Call it after the report.
+  HWY_NOINLINE void mark_unproven(Mask lanes) const {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(hn::And(lanes, valid), splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) batch.unsure[row + i] = 1;
+    }
+  }
+
   // Computes the first `count` lanes in double precision, and stores them.
   HWY_INLINE void compute_in_doubles(size_t count) const {
     const Mask unsure = hn::FirstN(FloatTag(), count);

@@ -237,6 +237,72 @@ struct BoxLanes : BoxOf<F> {
   HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
 };
 
+// Cylinders and cones: the rim is this far from the axis, and so far from the middle.
+template <ShapeKind kRound>
+struct RimLanes {
+  static constexpr ShapeKind kKind = kRound;
+  static constexpr bool kIsOriented = true;
+  F radius, half_length, rounding;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE RimLanes load(const BatchSide& side, const Bodies& bodies,
+                                  const PositionLanes&) {
+    F3 row;
+    F rounding;
+    load_row<kRole, 1>(side, bodies, 0, row, rounding);
+    return {row.x, row.y, rounding};
+  }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::Ge(min(min(radius, half_length), rounding), splat(0));
+  }
+  HWY_INLINE F size() const { return hn::Add(hn::Add(radius, half_length), rounding); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    radius = hn::IfThenElseZero(keep, radius);
+    half_length = hn::IfThenElseZero(keep, half_length);
+    rounding = hn::IfThenElseZero(keep, rounding);
+  }
+  HWY_INLINE F extent() const { return max(max(radius, half_length), rounding); }
+  HWY_INLINE void scale(F s) {
+    radius = hn::Mul(radius, s);
+    half_length = hn::Mul(half_length, s);
+    rounding = hn::Mul(rounding, s);
+  }
+};
+using CylinderLanes = RimLanes<ShapeKind::cylinder>;
+using ConeLanes = RimLanes<ShapeKind::cone>;
+
+struct EllipsoidLanes {
+  static constexpr ShapeKind kKind = ShapeKind::ellipsoid;
+  static constexpr bool kIsOriented = true;
+  F3 semi_axes;
+  F rounding;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE EllipsoidLanes load(const BatchSide& side, const Bodies& bodies,
+                                        const PositionLanes&) {
+    EllipsoidLanes ellipsoid;
+    load_row<kRole, 1>(side, bodies, 0, ellipsoid.semi_axes, ellipsoid.rounding);
+    return ellipsoid;
+  }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::Ge(min(min(semi_axes.x, semi_axes.y), min(semi_axes.z, rounding)), splat(0));
+  }
+  HWY_INLINE F size() const { return hn::Add(sum_of_sizes(semi_axes), rounding); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    semi_axes = zero_unless(keep, semi_axes);
+    rounding = hn::IfThenElseZero(keep, rounding);
+  }
+  HWY_INLINE F extent() const { return max(largest_component(semi_axes), rounding); }
+  HWY_INLINE void scale(F s) {
+    semi_axes = semi_axes * s;
+    rounding = hn::Mul(rounding, s);
+  }
+};
+
 struct TriangleLanes : TriangleOf<F> {
   template <class V>
   using Of = TriangleOf<V>;

@@ -1,5 +1,6 @@
 #include "narrowphase/pairs/manifold_batch.h"
 
+#include <algorithm>
 #include <array>
 
 #include "narrowphase/batch/column_memory.h"
@@ -25,6 +26,11 @@ void run_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
       points.point[k] = world_point(BodyReader{bodies_a}, batch.pairs[row].a, points.point[k]);
     }
   }
+}
+
+void run_manifolds_one_by_one(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
+  run_manifolds(batch, kind_a, kind_b,
+                [](const Batch& lanes) { std::fill_n(lanes.unsure, lanes.count, uint8_t{1}); });
 }
 
 }  // namespace carom

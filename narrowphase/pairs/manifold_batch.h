@@ -10,4 +10,7 @@ namespace carom {
 void run_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                    void (*in_lanes)(const Batch&));
 
+// The same where no points are found in lanes.
+void run_manifolds_one_by_one(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
+
 }  // namespace carom

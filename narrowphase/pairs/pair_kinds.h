@@ -37,42 +37,54 @@ inline constexpr std::array kListedPairKinds = {
 #undef CAROM_PAIR
 };
 
-// Round shapes with all convex ones.
+// Round shapes with all convex ones: those that are not in the list are tested one at a time.
 template <ShapeKind kA, ShapeKind kB>
 void run_round(const Batch& batch) {
   run_round_pair(batch, kA, kB);
 }
 template <ShapeKind kA, ShapeKind kB>
-inline constexpr PairKind kRoundPairKind{
-    kA, kB, &run_round<kA, kB>, kA == ShapeKind::sphere ? MorePasses::none : MorePasses::manifold};
+inline constexpr PairKind kRoundPairKind{kA, kB, &run_round<kA, kB>, MorePasses::manifold};
 template <ShapeKind kRound>
 inline constexpr std::array kRoundPairKinds = {
-    kRoundPairKind<ShapeKind::sphere, kRound>,    kRoundPairKind<ShapeKind::capsule, kRound>,
-    kRoundPairKind<ShapeKind::aabb, kRound>,      kRoundPairKind<ShapeKind::box, kRound>,
-    kRoundPairKind<ShapeKind::dop, kRound>,       kRoundPairKind<ShapeKind::hull, kRound>,
-    kRoundPairKind<ShapeKind::halfspace, kRound>, kRoundPairKind<kRound, ShapeKind::triangle>};
+    kRoundPairKind<ShapeKind::capsule, kRound>,   kRoundPairKind<ShapeKind::aabb, kRound>,
+    kRoundPairKind<ShapeKind::box, kRound>,       kRoundPairKind<ShapeKind::dop, kRound>,
+    kRoundPairKind<ShapeKind::hull, kRound>,      kRoundPairKind<ShapeKind::halfspace, kRound>,
+    kRoundPairKind<ShapeKind::cylinder, kRound>,  kRoundPairKind<ShapeKind::cone, kRound>,
+    kRoundPairKind<kRound, ShapeKind::ellipsoid>, kRoundPairKind<kRound, ShapeKind::triangle>};
+
+// Whether one of the first `count` kinds of a list is for these shapes.
+template <class List>
+constexpr bool has_pair_kind(const List& list, size_t count, const PairKind& kind) {
+  for (size_t i = 0; i < count; ++i) {
+    if (list[i].a == kind.a && list[i].b == kind.b) return true;
+  }
+  return false;
+}
+
+// The list, and what else there is of round shapes, each once; how many there are.
+inline constexpr auto kManyPairKinds = [] {
+  struct {
+    std::array<PairKind, kListedPairKinds.size() + 3 * kRoundPairKinds<ShapeKind::cone>.size()>
+        kinds{};
+    size_t count = 0;
+  } all;
+  for (const PairKind& kind : kListedPairKinds) all.kinds[all.count++] = kind;
+  const auto add = [&all](const auto& list) {
+    for (const PairKind& kind : list) {
+      if (kind.a > kind.b || has_pair_kind(all.kinds, all.count, kind)) continue;
+      all.kinds[all.count++] = kind;
+    }
+  };
+  add(kRoundPairKinds<ShapeKind::cylinder>);
+  add(kRoundPairKinds<ShapeKind::cone>);
+  add(kRoundPairKinds<ShapeKind::ellipsoid>);
+  return all;
+}();
 
 inline constexpr auto kCorePairKinds = [] {
-  constexpr auto kCylinders = kRoundPairKinds<ShapeKind::cylinder>;
-  constexpr auto kCones = kRoundPairKinds<ShapeKind::cone>;
-  constexpr auto kEllipsoids = kRoundPairKinds<ShapeKind::ellipsoid>;
-  constexpr std::array kBothRound = {kRoundPairKind<ShapeKind::cylinder, ShapeKind::cylinder>,
-                                     kRoundPairKind<ShapeKind::cylinder, ShapeKind::cone>,
-                                     kRoundPairKind<ShapeKind::cylinder, ShapeKind::ellipsoid>,
-                                     kRoundPairKind<ShapeKind::cone, ShapeKind::cone>,
-                                     kRoundPairKind<ShapeKind::cone, ShapeKind::ellipsoid>,
-                                     kRoundPairKind<ShapeKind::ellipsoid, ShapeKind::ellipsoid>};
-  std::array<PairKind, kListedPairKinds.size() + 3 * kCylinders.size() + kBothRound.size()> all{};
-  auto* next = all.data();
-  const auto add = [&next](const auto& list) {
-    for (const PairKind& kind : list) *next++ = kind;
-  };
-  add(kListedPairKinds);
-  add(kCylinders);
-  add(kCones);
-  add(kEllipsoids);
-  add(kBothRound);
-  return all;
+  std::array<PairKind, kManyPairKinds.count> kinds{};
+  for (size_t i = 0; i < kinds.size(); ++i) kinds[i] = kManyPairKinds.kinds[i];
+  return kinds;
 }();
 
 // Boxes and hulls with a rounding, by the tests of their cores: where those measure at once, or in

@@ -3,7 +3,10 @@
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
@@ -15,6 +18,32 @@ namespace {
 // Bullet rounds the corners of boxes and thickens triangles by a margin. This margin, a thousandth
 // of the smallest shape, makes its question nearly the same as Carom's.
 constexpr btScalar kMargin = 2.5e-4f;
+
+// Bullet has no ellipsoids. This is what its users add: a support point.
+class BulletEllipsoid final : public btConvexInternalShape {
+ public:
+  explicit BulletEllipsoid(const btVector3& semi_axes) : semi_axes_(semi_axes) {
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+    setMargin(0);
+  }
+
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& way) const override {
+    const btVector3 reached = semi_axes_ * way;
+    const btScalar length = reached.length();
+    return length > 0 ? semi_axes_ * reached / length : btVector3(0, 0, 0);
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* ways, btVector3* points,
+                                                         int count) const override {
+    for (int i = 0; i < count; ++i) points[i] = localGetSupportingVertexWithoutMargin(ways[i]);
+  }
+  void calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const override {
+    inertia.setZero();
+  }
+  const char* getName() const override { return "Ellipsoid"; }
+
+ private:
+  btVector3 semi_axes_;
+};
 
 std::shared_ptr<btCollisionShape> with_margin(std::shared_ptr<btCollisionShape> shape,
                                               btScalar margin) {
@@ -37,6 +66,13 @@ std::shared_ptr<btCollisionShape> make_shape(PeerShape shape, const std::array<f
           std::make_shared<btTriangleShape>(bullet_vector(&size[0]), bullet_vector(&size[3]),
                                             bullet_vector(&size[6])),
           kMargin);
+    case PeerShape::cylinder:
+      return with_margin(std::make_shared<btCylinderShapeZ>(btVector3(size[0], size[0], size[1])),
+                         kMargin);
+    case PeerShape::cone:
+      return with_margin(std::make_shared<btConeShapeZ>(size[0], 2 * size[1]), kMargin);
+    case PeerShape::ellipsoid:
+      return std::make_shared<BulletEllipsoid>(bullet_vector(&size[0]));
     case PeerShape::hull:
     case PeerShape::mesh:
       break;

@@ -43,6 +43,29 @@ ccd_vec3_t rounded(const Body& body, ccd_real_t half_length, ccd_vec3_t way) {
   return way;
 }
 
+ccd_vec3_t on_rim(const Body& body, const ccd_vec3_t& way, ccd_real_t height) {
+  const ccd_real_t across = std::hypot(way.v[0], way.v[1]);
+  const ccd_real_t share = across > 0 ? body.size[0] / across : 0;
+  return {{way.v[0] * share, way.v[1] * share, height}};
+}
+
+ccd_vec3_t tip_or_rim(const Body& body, const ccd_vec3_t& way) {
+  const ccd_real_t across = std::hypot(way.v[0], way.v[1]);
+  if (2 * body.size[1] * way.v[2] > body.size[0] * across) return {{0, 0, body.size[1]}};
+  return on_rim(body, way, -body.size[1]);
+}
+
+ccd_vec3_t on_ellipsoid(const Body& body, const ccd_vec3_t& way) {
+  ccd_vec3_t point;
+  ccd_real_t squared = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    point.v[i] = body.size[i] * body.size[i] * way.v[i];
+    squared += point.v[i] * way.v[i];
+  }
+  ccdVec3Scale(&point, squared > 0 ? 1 / std::sqrt(squared) : 0);
+  return point;
+}
+
 // In the body's frame.
 ccd_vec3_t local_support(const Body& body, const ccd_vec3_t& way) {
   switch (body.shape) {
@@ -52,6 +75,12 @@ ccd_vec3_t local_support(const Body& body, const ccd_vec3_t& way) {
       return rounded(body, body.size[1], way);
     case PeerShape::hull:
       return farthest_point(*body.points, way);
+    case PeerShape::cylinder:
+      return on_rim(body, way, std::copysign(body.size[1], way.v[2]));
+    case PeerShape::cone:
+      return tip_or_rim(body, way);
+    case PeerShape::ellipsoid:
+      return on_ellipsoid(body, way);
     default:
       return {{std::copysign(body.size[0], way.v[0]), std::copysign(body.size[1], way.v[1]),
                std::copysign(body.size[2], way.v[2])}};

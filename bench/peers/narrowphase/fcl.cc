@@ -2,7 +2,10 @@
 // default), in double precision; distance(), with GJK and EPA, for distances.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -58,6 +61,11 @@ class Bodies {
   static Geometry make_shape(PeerShape shape, const std::array<float, 9>& size) {
     if (shape == PeerShape::sphere) return std::make_shared<fcl::Sphered>(size[0]);
     if (shape == PeerShape::capsule) return std::make_shared<fcl::Capsuled>(size[0], 2 * size[1]);
+    if (shape == PeerShape::cylinder) return std::make_shared<fcl::Cylinderd>(size[0], 2 * size[1]);
+    if (shape == PeerShape::cone) return std::make_shared<fcl::Coned>(size[0], 2 * size[1]);
+    if (shape == PeerShape::ellipsoid) {
+      return std::make_shared<fcl::Ellipsoidd>(size[0], size[1], size[2]);
+    }
     return std::make_shared<fcl::Boxd>(2 * vector(size.data()));
   }
 

@@ -161,7 +161,10 @@ class MujocoPairs final : public PairPeer {
   const mjfCollision collide_;
 };
 
-bool is_known(PeerShape shape) { return shape != PeerShape::triangle && shape != PeerShape::mesh; }
+bool is_known(PeerShape shape) {
+  return shape == PeerShape::sphere || shape == PeerShape::capsule || shape == PeerShape::box ||
+         shape == PeerShape::hull;
+}
 
 }  // namespace
 

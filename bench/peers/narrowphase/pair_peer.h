@@ -11,13 +11,13 @@
 
 namespace carom::bench {
 
-enum class PeerShape { sphere, capsule, box, triangle, hull, mesh };
+enum class PeerShape { sphere, capsule, box, triangle, hull, mesh, cylinder, cone, ellipsoid };
 
 struct PeerBody {
   std::array<float, 3> position;
   std::array<float, 4> orientation;  // x, y, z, w; a unit quaternion
   // sphere: radius; capsule: radius and half the length, along y; box: half extents; triangle:
-  // three corners
+  // three corners; cylinder, cone: radius and half the length, along z; ellipsoid: semi-axes
   std::array<float, 9> size;
   size_t hull = 0;  // index into the hulls; bodies share them
 };

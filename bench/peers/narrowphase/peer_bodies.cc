@@ -14,6 +14,13 @@ std::array<float, 9> peer_size(const Aabb& box) {
 std::array<float, 9> peer_size(const Box& box) {
   return {box.half.x(), box.half.y(), box.half.z()};
 }
+std::array<float, 9> peer_size(const Cylinder& cylinder) {
+  return {cylinder.radius, cylinder.half_length};
+}
+std::array<float, 9> peer_size(const Cone& cone) { return {cone.radius, cone.half_length}; }
+std::array<float, 9> peer_size(const Ellipsoid& ellipsoid) {
+  return {ellipsoid.semi_axes.x(), ellipsoid.semi_axes.y(), ellipsoid.semi_axes.z()};
+}
 std::array<float, 9> peer_size(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
@@ -34,6 +41,12 @@ PeerShape peer_shape(ShapeKind kind) {
       return PeerShape::triangle;
     case ShapeKind::hull:
       return PeerShape::hull;
+    case ShapeKind::cylinder:
+      return PeerShape::cylinder;
+    case ShapeKind::cone:
+      return PeerShape::cone;
+    case ShapeKind::ellipsoid:
+      return PeerShape::ellipsoid;
     default:
       return PeerShape::box;
   }

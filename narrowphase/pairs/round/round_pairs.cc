@@ -10,9 +10,7 @@ namespace carom {
 
 void run_round_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
   if (batch.pass == Pass::manifold) {
-    return run_manifolds(batch, kind_a, kind_b, [](const Batch& lanes) {
-      std::fill_n(lanes.unsure, lanes.count, uint8_t{1});
-    });
+    return run_manifolds_one_by_one(batch, kind_a, kind_b);
   }
   const RowStore store(batch, kind_a, kind_b);
   for (size_t row = 0; row < batch.count; ++row) {

@@ -1,0 +1,352 @@
+// The gap of two cylinders, or of a segment and a cylinder, scalar form.
+//
+// The gap along a unit vector n is n . t - half_a |n . u| - rim_a |n x u| - half_b |n . v| - rim_b
+// |n x v|, for axes u and v and a vector t from the middle of A to that of B. The separation is the
+// greatest gap of all directions. As for boxes (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree,
+// SIGGRAPH 1996), it lies where two features face each other, and every pair of features has its
+// own direction:
+// - a cap: along its axis;
+// - two sides: across both axes;
+// - a side and a rim: the best direction of the circle across the axis, by Newton's method from the
+//   best of samples at either end of a quarter, where all but one maximum repeat;
+// - two rims: the best in the cone of t and both axes (a projection onto it takes no product down),
+//   by Newton's method on the sphere from the best two of some combinations.
+//
+// Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
+// face each other along the best one: then no direction has a greater gap, if the shapes are apart.
+// That the greatest of several maxima is found is not proven of shapes that overlap;
+// docs/accuracy.md has figures.
+#pragma once
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "narrowphase/scalar/vector.h"
+
+namespace carom::scalar {
+
+// A disc that moves along its axis from -half_length to half_length.
+struct AxialCore {
+  Vector3<float> axis;  // unit
+  float half_length, rim;
+};
+
+struct CylinderContact {
+  float separation;
+  Vector3<float> normal;  // unit, from A to B
+  Vector3<float> on_a;    // relative to the middle of A
+  bool is_sure;
+};
+
+// Two cylinders in the frame of their axes: x along A's, z across both, and t.z >= 0. That may be
+// a mirror image.
+class CylinderPair {
+ public:
+  CylinderPair(const AxialCore& a, const AxialCore& b, const Vector3<float>& t)
+      : half_a_(a.half_length), rim_a_(a.rim), half_b_(b.half_length), rim_b_(b.rim), x_(a.axis) {
+    const float along = dot(a.axis, b.axis);
+    const Vector3<float> b_axis = along < 0 ? Vector3<float>(-b.axis) : b.axis;
+    const Vector3<float> across = cross(a.axis, b_axis);
+    cosine_ = std::fabs(along);
+    sine_ = std::sqrt(dot(across, across));
+    const Vector3<float> up = across * (1 / sine_);
+    y_ = cross(up, a.axis);
+    const float height = dot(up, t);
+    z_ = height < 0 ? Vector3<float>(-up) : up;
+    t_ = {dot(a.axis, t), dot(y_, t), std::fabs(height)};
+  }
+
+  // A search that has not ended counts a little less, so that it does not win by rounding.
+  struct Found {
+    float gap = -kLargest;
+    Vector3<float> n{0, 0, 1};
+    bool is_flat_a = false, is_flat_b = false;  // more than one point of it faces the other one
+    bool has_ended = false;                     // of a search
+
+    void keep_if_wider(const Found& next) {
+      if (next.rank() > rank()) *this = next;
+    }
+    float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
+  };
+
+  float sine() const { return sine_; }
+  Vector3<float> in_world(const Vector3<float>& n) const {
+    return (x_ * n.x() + y_ * n.y()) + z_ * n.z();
+  }
+  // Where the axes cross, seen along z: on A, from its middle.
+  float crossing() const { return t_.x() - cosine_ * (t_.y() / sine_); }
+
+  Found find() const {
+    Found best;
+    try_caps(best);
+    best.keep_if_wider({t_.z() - (rim_a_ + rim_b_), {0, 0, 1}, true, true, true});
+    try_sides(best);
+    try_rims(best);
+    return best;
+  }
+
+ private:
+  // `signs`: at which end of their axes the features are.
+  struct Start {
+    float gap = -kLargest;
+    Vector3<float> n{0, 0, 1};
+    float sign_a = 1, sign_b = 1;
+  };
+
+  float gap(const Vector3<float>& n) const {
+    const float along_b = cosine_ * n.x() + sine_ * n.y();
+    const float across_b = cosine_ * n.y() - sine_ * n.x();
+    const float square = n.z() * n.z();
+    const float reach_a = half_a_ * std::fabs(n.x()) + rim_a_ * std::sqrt(n.y() * n.y() + square);
+    const float reach_b =
+        half_b_ * std::fabs(along_b) + rim_b_ * std::sqrt(across_b * across_b + square);
+    return dot(n, t_) - (reach_a + reach_b);
+  }
+
+  void try_caps(Found& best) const {
+    const float sign_a = std::copysign(1.0f, t_.x());
+    const Vector3<float> cap_a(sign_a, 0, 0);
+    best.keep_if_wider({gap(cap_a), cap_a, true, false, true});
+    const float sign_b = std::copysign(1.0f, cosine_ * t_.x() + sine_ * t_.y());
+    const Vector3<float> cap_b(sign_b * cosine_, sign_b * sine_, 0);
+    best.keep_if_wider({gap(cap_b), cap_b, false, true, true});
+  }
+
+  // A direction c along, s across.
+  struct Arc {
+    float c, s;
+    bool has_ended;
+  };
+
+  // The best direction of a quarter for (a, b) and an ellipse of half axes rim * cosine and rim,
+  // from the best of some samples.
+  Arc best_of_arc(float a, float b, float rim, size_t first, size_t last) const {
+    const float flat = cosine_ * cosine_, rise = rim * (sine_ * sine_);
+    Arc arc{1, 0, false};
+    float most = -kLargest;
+    for (size_t i = first; i < last; ++i) {
+      const float c = kArcCosines[i], s = kArcCosines[kArcSamples - 1 - i];
+      const float gap = (a * c + b * s) - rim * std::sqrt(s * s + flat * (c * c));
+      if (!(gap > most)) continue;
+      most = gap;
+      arc.c = c;
+      arc.s = s;
+    }
+    for (size_t i = 0; i < kArcSteps; ++i) {
+      const float c = arc.c, s = arc.s;
+      const float over_w = 1 / max(std::sqrt(s * s + flat * (c * c)), kLeastRim);
+      const float sc = s * c, bend = rise * over_w;
+      const float slope = (b * c - a * s) - bend * sc;
+      const float tilt = sc * (sine_ * over_w);
+      const float curve = -(a * c + b * s) - bend * ((c * c - s * s) - tilt * tilt);
+      const float step = curve < 0 ? -slope / curve : std::copysign(kShortArc, slope);
+      const float turn = clamp(step, -kLongArc, kLongArc);
+      const float c2 = max(c - turn * s, 0.0f), s2 = max(s + turn * c, 0.0f);
+      const float to_unit = 1 / std::sqrt(c2 * c2 + s2 * s2);
+      arc.c = c2 * to_unit;
+      arc.s = s2 * to_unit;
+      arc.has_ended = std::fabs(c * arc.s - s * arc.c) <= kLastArc;
+    }
+    return arc;
+  }
+
+  void try_sides(Found& best) const {
+    const float across = cosine_ * t_.y() - sine_ * t_.x();
+    const float beside_a = std::fabs(t_.y()) - half_b_ * sine_;
+    const float beside_b = std::fabs(across) - half_a_ * sine_;
+    for (const size_t first : {size_t{0}, kArcSamples / 2}) {
+      const size_t last = first + kArcSamples / 2 + 1;
+      const Arc of_a = best_of_arc(beside_a, t_.z(), rim_b_, first, last);
+      const Vector3<float> n(0, std::copysign(of_a.c, t_.y()), of_a.s);
+      best.keep_if_wider({gap(n), n, true, false, of_a.has_ended});
+      const Arc of_b = best_of_arc(beside_b, t_.z(), rim_a_, first, last);
+      const float c = std::copysign(of_b.c, across);
+      const Vector3<float> m(-(sine_ * c), cosine_ * c, of_b.s);
+      best.keep_if_wider({gap(m), m, false, true, of_b.has_ended});
+    }
+  }
+
+  // From the middle of A's cap to that of B's.
+  Vector3<float> between_caps(float sign_a, float sign_b) const {
+    const float b = sign_b * half_b_;
+    return {(t_.x() - sign_a * half_a_) - b * cosine_, t_.y() - b * sine_, t_.z()};
+  }
+
+  // The best two at different ends, the best first.
+  struct Starts {
+    Start first, second;
+    void add(const Start& next) {
+      const bool is_same = next.sign_a == first.sign_a && next.sign_b == first.sign_b;
+      if (next.gap > first.gap) {
+        if (!is_same) second = first;
+        first = next;
+      } else if (!is_same && next.gap > second.gap) {
+        second = next;
+      }
+    }
+  };
+
+  // Unless `way` vanishes.
+  void keep_if_wider(const Vector3<float>& way, Start& start) const {
+    const float squared = dot(way, way);
+    if (!(squared > kLeastWay)) return;
+    const Vector3<float> n = way * (1 / std::sqrt(squared));
+    const float wide = gap(n);
+    if (!(wide > start.gap)) return;
+    start.gap = wide;
+    start.n = n;
+    start.sign_a = std::copysign(1.0f, n.x());
+    start.sign_b = std::copysign(1.0f, cosine_ * n.x() + sine_ * n.y());
+  }
+
+  // Combinations of the vector between two caps and the axes.
+  Start start_between(float sign_a, float sign_b) const {
+    const Vector3<float> way = between_caps(sign_a, sign_b);
+    const Vector3<float> q = way * (1 / std::sqrt(max(dot(way, way), kLeastWay)));
+    const Vector3<float> a(sign_a, 0, 0), b(sign_b * cosine_, sign_b * sine_, 0);
+    Start start;
+    const Vector3<float> qa = q + a, qb = q + b, all = qa + b;
+    for (const Vector3<float>& combination : {q, qa, qb, all, Vector3<float>(a + b),
+                                              Vector3<float>(all + a), Vector3<float>(all + b)}) {
+      keep_if_wider(combination, start);
+    }
+    return start;
+  }
+
+  // From A's rim to the point of B that is furthest along A's axis, if that lies beside the cap.
+  Start start_at_cap_of_a() const {
+    const float sign = std::copysign(1.0f, t_.x());
+    const float half = sign * half_b_, rim = sign * rim_b_;
+    const Vector3<float> p((t_.x() - half * cosine_) - rim * sine_,
+                           (t_.y() - half * sine_) + rim * cosine_, t_.z());
+    const float above = sign * p.x() - half_a_;
+    const float from_axis = std::sqrt(p.y() * p.y() + p.z() * p.z());
+    const float share = (from_axis - rim_a_) / max(from_axis, kLeastRim);
+    Start start;
+    if (min(above, share) > 0) {
+      keep_if_wider({sign * above, p.y() * share, p.z() * share}, start);
+    }
+    return start;
+  }
+
+  // The same from B's rim.
+  Start start_at_cap_of_b() const {
+    const float sign = std::copysign(1.0f, cosine_ * t_.x() + sine_ * t_.y());
+    const Vector3<float> w(t_.x() - sign * half_a_, t_.y() - sign * rim_a_, t_.z());
+    const float above = sign * (cosine_ * w.x() + sine_ * w.y()) - half_b_;
+    const float across = cosine_ * w.y() - sine_ * w.x();
+    const float from_axis = std::sqrt(across * across + w.z() * w.z());
+    const float share = (from_axis - rim_b_) / max(from_axis, kLeastRim);
+    Start start;
+    if (min(above, share) > 0) {
+      const float along = sign * above, beside = across * share;
+      keep_if_wider(
+          {cosine_ * along - sine_ * beside, sine_ * along + cosine_ * beside, w.z() * share},
+          start);
+    }
+    return start;
+  }
+
+  void try_rims(Found& best) const {
+    Starts starts;
+    for (const float sign_a : {1.0f, -1.0f}) {
+      for (const float sign_b : {1.0f, -1.0f}) starts.add(start_between(sign_a, sign_b));
+    }
+    starts.add(start_at_cap_of_a());
+    starts.add(start_at_cap_of_b());
+    for (const Start& start : {starts.first, starts.second}) {
+      Vector3<float> n = start.n;
+      const Vector3<float> q = between_caps(start.sign_a, start.sign_b);
+      bool has_ended = false;
+      for (size_t i = 0; i < kRimSteps; ++i) has_ended = step(q, n);
+      best.keep_if_wider({gap(n), n, false, false, has_ended});
+    }
+  }
+
+  // A step of Newton's method for n . q - rim_a |n x u| - rim_b |n x v|, in the plane across n.
+  // Returns whether it was short.
+  bool step(const Vector3<float>& q, Vector3<float>& n) const {
+    const float along_b = cosine_ * n.x() + sine_ * n.y();
+    const float across_b = cosine_ * n.y() - sine_ * n.x();
+    const float square = n.z() * n.z();
+    const float off_a = max(std::sqrt(n.y() * n.y() + square), kLeastRim);
+    const float off_b = max(std::sqrt(across_b * across_b + square), kLeastRim);
+    const float over_a = 1 / off_a, over_b = 1 / off_b;
+    const Vector3<float> b_axis(cosine_, sine_, 0);
+    // One direction of the plane is across A's axis, too.
+    const Vector3<float> one(0, -(n.z() * over_a), n.y() * over_a), two = cross(n, one);
+    const Vector3<float> side = cross(b_axis, n) * over_b;
+    const float c = dot(side, one), s = dot(side, two);
+    const Vector3<float> out_a(0, n.y() * over_a, n.z() * over_a);
+    const Vector3<float> out_b = (n - b_axis * along_b) * over_b;
+    const Vector3<float> way = (q - out_a * rim_a_) - out_b * rim_b_;
+    const float height = dot(way, n), slope_one = dot(way, one), slope_two = dot(way, two);
+    const float bend_a = rim_a_ * over_a, bend_b = rim_b_ * over_b;
+    const float one_one = -(bend_a + bend_b * (c * c)) - height;
+    const float one_two = -(bend_b * (c * s));
+    const float two_two = -(bend_b * (s * s)) - height;
+    const float determinant = one_one * two_two - one_two * one_two;
+    const bool is_peak = one_one < 0 && determinant > kLeastBend;
+    const float over =
+        is_peak ? 1 / determinant : 1 / (((bend_a + bend_b) + std::fabs(height)) + kShortArc);
+    const float by_one = (is_peak ? one_two * slope_two - two_two * slope_one : slope_one) * over;
+    const float by_two = (is_peak ? one_two * slope_one - one_one * slope_two : slope_two) * over;
+    const float length = std::sqrt(by_one * by_one + by_two * by_two);
+    const float most = kRimStep * min(off_a, off_b);
+    const float share = length > most ? most / length : 1.0f;
+    Vector3<float> next = n + (one * (by_one * share) + two * (by_two * share));
+    next.z() = max(next.z(), 0.0f);
+    n = next * (1 / std::sqrt(dot(next, next)));
+    return length <= kLastArc;
+  }
+
+  float half_a_, rim_a_, half_b_, rim_b_;
+  Vector3<float> x_, y_, z_, t_;
+  float cosine_, sine_;
+};
+
+// How far a core about zero reaches along n.
+inline float reach(const AxialCore& core, const Vector3<float>& n) {
+  const float along = dot(core.axis, n);
+  const Vector3<float> across = n - core.axis * along;
+  return core.half_length * std::fabs(along) + core.rim * std::sqrt(dot(across, across));
+}
+
+// The point of a core about zero that is furthest along n.
+inline Vector3<float> furthest_point(const AxialCore& core, const Vector3<float>& n) {
+  const float along = dot(core.axis, n);
+  const Vector3<float> across = n - core.axis * along;
+  const float over = 1 / max(std::sqrt(dot(across, across)), kLeastRim);
+  return core.axis * std::copysign(core.half_length, along) + across * (core.rim * over);
+}
+
+// Whether a point lies in the core, or beside it by no more than `most`.
+inline bool holds(const AxialCore& core, const Vector3<float>& p, float most = kBesideCore) {
+  const float along = dot(core.axis, p);
+  const Vector3<float> across = p - core.axis * along;
+  const float reach = core.rim + most;
+  return reach >= 0 && std::fabs(along) <= core.half_length + most &&
+         dot(across, across) <= reach * reach;
+}
+
+// `t`: from the middle of A to that of B.
+inline CylinderContact cylinder_contact(const AxialCore& a, const AxialCore& b,
+                                        const Vector3<float>& t) {
+  const CylinderPair pair(a, b, t);
+  const CylinderPair::Found found = pair.find();
+  const Vector3<float> way = pair.in_world(found.n);
+  const Vector3<float> n = way * (1 / std::sqrt(dot(way, way)));
+  const Vector3<float> from_a = furthest_point(a, n), from_b = t - furthest_point(b, n);
+  const float separation = dot(n, t) - (reach(a, n) + reach(b, n));
+  Vector3<float> on_a = from_a;
+  if (found.is_flat_a) {
+    on_a = found.is_flat_b ? Vector3<float>(a.axis * pair.crossing() + n * a.rim)
+                           : Vector3<float>(from_b - n * separation);
+  }
+  const Vector3<float> on_b = (on_a + n * separation) - t;
+  const bool is_sure =
+      found.has_ended && pair.sine() >= kCrossingAxes && holds(a, on_a) && holds(b, on_b);
+  return {separation, n, on_a, is_sure};
+}
+
+}  // namespace carom::scalar

@@ -1,0 +1,189 @@
+// The gap of two ellipsoids, in lanes, in the frame of A. ellipsoids_scalar.h is the scalar form,
+// says how the search goes, and gives the same bits.
+#if defined(CAROM_NARROWPHASE_FEATURES_ELLIPSOIDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_ELLIPSOIDS_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_ELLIPSOIDS_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_ELLIPSOIDS_INL_H_
+#endif
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct EllipsoidContactLanes {
+  F separation;
+  F3 normal, on_a;
+  Mask is_sure;
+};
+
+HWY_INLINE F3 componentwise(const F3& a, const F3& b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+
+class EllipsoidPairLanes {
+ public:
+  // `rows_b`: x, y, z are rows.
+  HWY_INLINE EllipsoidPairLanes(const F3& semi_axes_a, const std::array<F3, 3>& rows_b, const F3& t)
+      : a_(semi_axes_a), b_(rows_b), t_(t) {}
+
+  HWY_INLINE EllipsoidContactLanes find() const {
+    Starts starts(*this);
+    const F zero = splat(0);
+    F3 best_n = {zero, zero, splat(1)};
+    F best_gap = splat(-FLT_MAX), best_rank = hn::Sub(best_gap, splat(kNotEnded));
+    Mask has_ended = no_lanes();
+    for (size_t i = 0; i < kEllipsoidStarts; ++i) {
+      F3 n = starts.take_best();
+      Mask ends = no_lanes();
+      for (size_t k = 0; k < kEllipsoidSteps; ++k) ends = step(n);
+      const F wide = gap(n);
+      const F rank = hn::Sub(wide, hn::IfThenZeroElse(ends, splat(kNotEnded)));
+      const Mask wider = hn::Gt(rank, best_rank);
+      best_rank = hn::IfThenElse(wider, rank, best_rank);
+      best_n = select(wider, n, best_n);
+      has_ended = hn::Or(hn::And(wider, ends), hn::AndNot(wider, has_ended));
+    }
+    const Reach reach(*this, best_n);
+    const F separation = hn::Sub(dot(best_n, t_), hn::Add(reach.height_a, reach.height_b));
+    const F3 aside = ((t_ - reach.on_a) - reach.on_b) - best_n * separation;
+    const Mask is_facing = hn::Le(dot(aside, aside), splat(kBesideCore * kBesideCore));
+    return {separation, best_n, reach.on_a, hn::And(has_ended, is_facing)};
+  }
+
+ private:
+  HWY_INLINE F3 on_rows(const F3& n) const { return {dot(b_[0], n), dot(b_[1], n), dot(b_[2], n)}; }
+  HWY_INLINE F3 on_axes(const F3& n) const { return componentwise(a_, n); }
+  HWY_INLINE F gap(const F3& n) const {
+    const F3 of_a = on_axes(n), of_b = on_rows(n);
+    return hn::Sub(dot(n, t_), hn::Add(hn::Sqrt(dot(of_a, of_a)), hn::Sqrt(dot(of_b, of_b))));
+  }
+
+  struct Reach {
+    F height_a, height_b, over_a, over_b;
+    F3 on_a, on_b;
+
+    HWY_INLINE Reach(const EllipsoidPairLanes& pair, const F3& n) {
+      const F one = splat(1), least = splat(kLeastRim);
+      const F3 of_a = pair.on_axes(n), of_b = pair.on_rows(n);
+      height_a = hn::Sqrt(dot(of_a, of_a));
+      height_b = hn::Sqrt(dot(of_b, of_b));
+      over_a = hn::Div(one, max(height_a, least));
+      over_b = hn::Div(one, max(height_b, least));
+      on_a = pair.on_axes(of_a) * over_a;
+      on_b = ((pair.b_[0] * of_b.x + pair.b_[1] * of_b.y) + pair.b_[2] * of_b.z) * over_b;
+    }
+  };
+
+  class Starts {
+   public:
+    HWY_INLINE explicit Starts(const EllipsoidPairLanes& pair) {
+      add(pair.t_, pair);
+      for (const F3& row : pair.b_) add(row, pair);
+      constexpr float kEdge = 0.707106781f, kCorner = 0.577350269f;
+      constexpr float kFixed[kCount - 4][3] = {{1, 0, 0},
+                                               {0, 1, 0},
+                                               {0, 0, 1},
+                                               {kEdge, kEdge, 0},
+                                               {kEdge, -kEdge, 0},
+                                               {kEdge, 0, kEdge},
+                                               {kEdge, 0, -kEdge},
+                                               {0, kEdge, kEdge},
+                                               {0, kEdge, -kEdge},
+                                               {kCorner, kCorner, kCorner},
+                                               {kCorner, kCorner, -kCorner},
+                                               {kCorner, -kCorner, kCorner},
+                                               {-kCorner, kCorner, kCorner}};
+      for (const auto& d : kFixed) add({splat(d[0]), splat(d[1]), splat(d[2])}, pair);
+    }
+
+    HWY_INLINE F3 take_best() {
+      F3 best = n_[0];
+      F most = gap_[0];
+      for (size_t i = 1; i < kCount; ++i) {
+        const Mask wider = hn::Gt(gap_[i], most);
+        most = hn::IfThenElse(wider, gap_[i], most);
+        best = select(wider, n_[i], best);
+      }
+      for (size_t i = 0; i < kCount; ++i) {
+        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kApart));
+        gap_[i] = hn::IfThenElse(is_near, splat(-FLT_MAX), gap_[i]);
+      }
+      return best;
+    }
+
+   private:
+    HWY_INLINE void add(const F3& direction, const EllipsoidPairLanes& pair) {
+      const F squared = dot(direction, direction), height = dot(direction, pair.t_);
+      const F length = hn::Sqrt(max(squared, splat(kLeastWay)));
+      n_[count_] = direction * hn::CopySign(hn::Div(splat(1), length), height);
+      gap_[count_] =
+          hn::IfThenElse(hn::Gt(squared, splat(kLeastWay)), pair.gap(n_[count_]), splat(-FLT_MAX));
+      ++count_;
+    }
+
+    static constexpr size_t kCount = 17;
+    F3 n_[kCount];
+    F gap_[kCount];
+    size_t count_ = 0;
+  };
+
+  HWY_INLINE Mask step(F3& n) const {
+    const F zero = splat(0), half_one = splat(0.5f), unit = splat(1);
+    const Reach reach(*this, n);
+    const F sign = hn::CopySign(unit, n.z);
+    const F p = hn::Div(splat(-1), hn::Add(sign, n.z));
+    const F q = hn::Mul(hn::Mul(n.x, n.y), p);
+    const F3 across_one = {hn::Add(unit, hn::Mul(sign, hn::Mul(hn::Mul(n.x, n.x), p))),
+                           hn::Mul(sign, q), hn::Neg(hn::Mul(sign, n.x))};
+    const F3 across_two = {q, hn::Add(sign, hn::Mul(hn::Mul(n.y, n.y), p)), hn::Neg(n.y)};
+    const F3 way = (t_ - reach.on_a) - reach.on_b;
+    const F height = dot(way, n), slope_one = dot(way, across_one),
+            slope_two = dot(way, across_two);
+    const F3 a_one = on_axes(across_one), a_two = on_axes(across_two);
+    const F3 b_one = on_rows(across_one), b_two = on_rows(across_two);
+    const F on_a_one = dot(reach.on_a, across_one), on_a_two = dot(reach.on_a, across_two);
+    const F on_b_one = dot(reach.on_b, across_one), on_b_two = dot(reach.on_b, across_two);
+    const auto bend = [&](F of_a, F of_b) HWY_ATTR {
+      return hn::Add(hn::Mul(of_a, reach.over_a), hn::Mul(of_b, reach.over_b));
+    };
+    const F bend_one = bend(hn::Sub(dot(a_one, a_one), hn::Mul(on_a_one, on_a_one)),
+                            hn::Sub(dot(b_one, b_one), hn::Mul(on_b_one, on_b_one)));
+    const F bend_both = bend(hn::Sub(dot(a_one, a_two), hn::Mul(on_a_one, on_a_two)),
+                             hn::Sub(dot(b_one, b_two), hn::Mul(on_b_one, on_b_two)));
+    const F bend_two = bend(hn::Sub(dot(a_two, a_two), hn::Mul(on_a_two, on_a_two)),
+                            hn::Sub(dot(b_two, b_two), hn::Mul(on_b_two, on_b_two)));
+    const F one = hn::Sub(hn::Neg(bend_one), height), two = hn::Sub(hn::Neg(bend_two), height);
+    const F both = hn::Neg(bend_both);
+    const F half = hn::Mul(hn::Sub(one, two), half_one),
+            mean = hn::Mul(hn::Add(one, two), half_one);
+    const F spread = hn::Sqrt(hn::Add(hn::Mul(half, half), hn::Mul(both, both)));
+    const F greater = hn::Add(mean, spread);
+    const F lower = hn::IfThenZeroElse(
+        hn::Lt(greater, zero),
+        hn::Add(hn::Add(greater, hn::Mul(splat(kSaddleShare), spread)), splat(kSaddle)));
+    const F one_one = hn::Sub(one, lower), two_two = hn::Sub(two, lower);
+    const F over = hn::Div(unit, hn::Sub(hn::Mul(one_one, two_two), hn::Mul(both, both)));
+    const F by_one = hn::Mul(hn::Sub(hn::Mul(both, slope_two), hn::Mul(two_two, slope_one)), over);
+    const F by_two = hn::Mul(hn::Sub(hn::Mul(both, slope_one), hn::Mul(one_one, slope_two)), over);
+    const F length = hn::Sqrt(hn::Add(hn::Mul(by_one, by_one), hn::Mul(by_two, by_two)));
+    const F share =
+        hn::IfThenElse(hn::Gt(length, splat(kLongTurn)), hn::Div(splat(kLongTurn), length), unit);
+    const F3 next = n + (across_one * hn::Mul(by_one, share) + across_two * hn::Mul(by_two, share));
+    n = next * hn::Div(unit, hn::Sqrt(dot(next, next)));
+    return hn::Le(length, splat(kLastArc));
+  }
+
+  F3 a_;
+  std::array<F3, 3> b_;
+  F3 t_;
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_ELLIPSOIDS_INL_H_

@@ -1,0 +1,192 @@
+// The gap of two ellipsoids, scalar form, in the frame of A.
+//
+// Along a unit vector n it is n . t - |D n| - |M n|: D holds the semi-axes of A, the rows of M
+// those of B, and t leads from the middle of A to that of B. The separation is the greatest gap of
+// all directions. Newton's method on the sphere finds it from the best of some directions; at a
+// saddle both curvatures are lowered first, so that the step leads upwards.
+//
+// Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
+// face each other along the best one: then no direction has a greater gap, if the shapes are apart.
+// That the greatest of several maxima is found is not proven of shapes that overlap;
+// docs/accuracy.md has figures.
+#pragma once
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "narrowphase/scalar/vector.h"
+
+namespace carom::scalar {
+
+struct EllipsoidContact {
+  float separation;
+  Vector3<float> normal;  // unit, from A to B
+  Vector3<float> on_a;    // relative to the middle of A
+  bool is_sure;
+};
+
+// Two directions across n, which is a unit vector.
+struct TangentPlane {
+  Vector3<float> one, two;
+
+  // Source: T. Duff and others, Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017.
+  explicit TangentPlane(const Vector3<float>& n) {
+    const float sign = std::copysign(1.0f, n.z());
+    const float a = -1 / (sign + n.z());
+    const float b = (n.x() * n.y()) * a;
+    one = {1 + sign * ((n.x() * n.x()) * a), sign * b, -(sign * n.x())};
+    two = {b, sign + (n.y() * n.y()) * a, -n.y()};
+  }
+};
+
+class EllipsoidPair {
+ public:
+  EllipsoidPair(const Vector3<float>& semi_axes_a, const std::array<Vector3<float>, 3>& rows_b,
+                const Vector3<float>& t)
+      : a_(semi_axes_a), b_(rows_b), t_(t) {}
+
+  EllipsoidContact find() const {
+    Starts starts(*this);
+    Found best;
+    for (size_t i = 0; i < kEllipsoidStarts; ++i) {
+      Found found{0, starts.take_best(), false};
+      for (size_t k = 0; k < kEllipsoidSteps; ++k) found.has_ended = step(found.n);
+      found.gap = gap(found.n);
+      if (found.rank() > best.rank()) best = found;
+    }
+    const Reach reach(*this, best.n);
+    const float separation = dot(best.n, t_) - (reach.height_a + reach.height_b);
+    const Vector3<float> aside = ((t_ - reach.on_a) - reach.on_b) - best.n * separation;
+    const bool is_facing = dot(aside, aside) <= kBesideCore * kBesideCore;
+    return {separation, best.n, reach.on_a, best.has_ended && is_facing};
+  }
+
+ private:
+  struct Found {
+    float gap = -kLargest;
+    Vector3<float> n{0, 0, 1};
+    bool has_ended = false;
+
+    float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
+  };
+
+  Vector3<float> on_rows(const Vector3<float>& n) const {
+    return {dot(b_[0], n), dot(b_[1], n), dot(b_[2], n)};
+  }
+  Vector3<float> on_axes(const Vector3<float>& n) const {
+    return {a_.x() * n.x(), a_.y() * n.y(), a_.z() * n.z()};
+  }
+  float gap(const Vector3<float>& n) const {
+    const Vector3<float> of_a = on_axes(n), of_b = on_rows(n);
+    return dot(n, t_) - (std::sqrt(dot(of_a, of_a)) + std::sqrt(dot(of_b, of_b)));
+  }
+
+  // How far both reach along n, and their furthest points; that of B against n, from its middle,
+  // with the sign changed.
+  struct Reach {
+    float height_a, height_b;
+    float over_a, over_b;
+    Vector3<float> on_a, on_b;
+
+    Reach(const EllipsoidPair& pair, const Vector3<float>& n) {
+      const Vector3<float> of_a = pair.on_axes(n), of_b = pair.on_rows(n);
+      height_a = std::sqrt(dot(of_a, of_a));
+      height_b = std::sqrt(dot(of_b, of_b));
+      over_a = 1 / max(height_a, kLeastRim);
+      over_b = 1 / max(height_b, kLeastRim);
+      on_a = pair.on_axes(of_a) * over_a;
+      on_b = ((pair.b_[0] * of_b.x() + pair.b_[1] * of_b.y()) + pair.b_[2] * of_b.z()) * over_b;
+    }
+  };
+
+  // The directions to start from, and their gaps.
+  class Starts {
+   public:
+    explicit Starts(const EllipsoidPair& pair) {
+      constexpr float kEdge = 0.707106781f, kCorner = 0.577350269f;
+      const Vector3<float> directions[kCount] = {pair.t_,
+                                                 pair.b_[0],
+                                                 pair.b_[1],
+                                                 pair.b_[2],
+                                                 {1, 0, 0},
+                                                 {0, 1, 0},
+                                                 {0, 0, 1},
+                                                 {kEdge, kEdge, 0},
+                                                 {kEdge, -kEdge, 0},
+                                                 {kEdge, 0, kEdge},
+                                                 {kEdge, 0, -kEdge},
+                                                 {0, kEdge, kEdge},
+                                                 {0, kEdge, -kEdge},
+                                                 {kCorner, kCorner, kCorner},
+                                                 {kCorner, kCorner, -kCorner},
+                                                 {kCorner, -kCorner, kCorner},
+                                                 {-kCorner, kCorner, kCorner}};
+      for (size_t i = 0; i < kCount; ++i) {
+        const float squared = dot(directions[i], directions[i]);
+        const float height = dot(directions[i], pair.t_);
+        const float to_unit = std::copysign(1 / std::sqrt(max(squared, kLeastWay)), height);
+        n_[i] = directions[i] * to_unit;
+        gap_[i] = squared > kLeastWay ? pair.gap(n_[i]) : -kLargest;
+      }
+    }
+
+    // The best that is left; what is near it is left out afterwards.
+    Vector3<float> take_best() {
+      Vector3<float> best = n_[0];
+      float most = gap_[0];
+      for (size_t i = 1; i < kCount; ++i) {
+        if (!(gap_[i] > most)) continue;
+        most = gap_[i];
+        best = n_[i];
+      }
+      for (size_t i = 0; i < kCount; ++i) {
+        if (dot(n_[i], best) > kApart) gap_[i] = -kLargest;
+      }
+      return best;
+    }
+
+   private:
+    static constexpr size_t kCount = 17;
+    std::array<Vector3<float>, kCount> n_;
+    std::array<float, kCount> gap_;
+  };
+
+  // A step of Newton's method in the plane across n. Returns whether it was short.
+  bool step(Vector3<float>& n) const {
+    const Reach reach(*this, n);
+    const TangentPlane plane(n);
+    const Vector3<float> way = (t_ - reach.on_a) - reach.on_b;
+    const float height = dot(way, n), slope_one = dot(way, plane.one),
+                slope_two = dot(way, plane.two);
+    const Vector3<float> a_one = on_axes(plane.one), a_two = on_axes(plane.two);
+    const Vector3<float> b_one = on_rows(plane.one), b_two = on_rows(plane.two);
+    const float on_a_one = dot(reach.on_a, plane.one), on_a_two = dot(reach.on_a, plane.two);
+    const float on_b_one = dot(reach.on_b, plane.one), on_b_two = dot(reach.on_b, plane.two);
+    const float bend_one = (dot(a_one, a_one) - on_a_one * on_a_one) * reach.over_a +
+                           (dot(b_one, b_one) - on_b_one * on_b_one) * reach.over_b;
+    const float bend_both = (dot(a_one, a_two) - on_a_one * on_a_two) * reach.over_a +
+                            (dot(b_one, b_two) - on_b_one * on_b_two) * reach.over_b;
+    const float bend_two = (dot(a_two, a_two) - on_a_two * on_a_two) * reach.over_a +
+                           (dot(b_two, b_two) - on_b_two * on_b_two) * reach.over_b;
+    const float one = -bend_one - height, two = -bend_two - height, both = -bend_both;
+    const float half = (one - two) * 0.5f, mean = (one + two) * 0.5f;
+    const float spread = std::sqrt(half * half + both * both);
+    const float greater = mean + spread;
+    const float lower = greater < 0 ? 0.0f : (greater + kSaddleShare * spread) + kSaddle;
+    const float one_one = one - lower, two_two = two - lower;
+    const float over = 1 / (one_one * two_two - both * both);
+    const float by_one = (both * slope_two - two_two * slope_one) * over;
+    const float by_two = (both * slope_one - one_one * slope_two) * over;
+    const float length = std::sqrt(by_one * by_one + by_two * by_two);
+    const float share = length > kLongTurn ? kLongTurn / length : 1.0f;
+    const Vector3<float> next = n + (plane.one * (by_one * share) + plane.two * (by_two * share));
+    n = next * (1 / std::sqrt(dot(next, next)));
+    return length <= kLastArc;
+  }
+
+  Vector3<float> a_;
+  std::array<Vector3<float>, 3> b_;
+  Vector3<float> t_;
+};
+
+}  // namespace carom::scalar
