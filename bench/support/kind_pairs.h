@@ -14,8 +14,6 @@ struct KindPair {
   ShapeKind b;
 };
 
-constexpr bool is_rounded(ShapeKind kind) { return core_kind(kind) != kind; }
-
 inline std::vector<KindPair> kind_pairs() {
   using enum ShapeKind;
   std::vector<KindPair> pairs;

@@ -1,4 +1,4 @@
-// The widest gap between a solid and a cylinder, a feature a lane (solid_cylinder_scalar.h is the
+// The widest gaps between solids and cylinders, a feature a lane (solid_cylinder_scalar.h is the
 // scalar form, says how the search goes, and gives the same bits).
 #include "simd/targets.h"
 
@@ -31,11 +31,12 @@ HWY_INLINE F3 load3(const std::array<const float*, 3>& column, size_t i, F scale
   return v * scale;
 }
 
-// The cylinder in all lanes.
+// One cylinder in all lanes, or one a lane.
 struct CylinderOfPair {
   F3 middle, axis;
   F half_length, rim;
 
+  CylinderOfPair() = default;
   explicit HWY_INLINE CylinderOfPair(const PlacedCylinder& c)
       : middle(in_all_lanes(c.middle)),
         axis(in_all_lanes(c.axis)),
@@ -129,30 +130,47 @@ SolidWay best_corner(const Solid& solid, const PlacedCylinder& placed,
           SolidWay::Feature::corner, static_cast<uint32_t>(place)};
 }
 
-// The edges of one vector. The last lanes may repeat an edge.
+// Four floats a lane, at record(lane).
+template <class Record>
+struct RecordsOf {
+  const Record& record;
+
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const {
+    return hn::LoadU(Quad(), record(lane)->data());
+  }
+#endif
+  HWY_INLINE float component(size_t lane, size_t c) const { return (*record(lane))[c]; }
+};
+
 struct EdgeLanes {
   F3 left, right, d, way;
 
-  template <class EdgeAt>
-  HWY_INLINE EdgeLanes(const Solid& solid, const CylinderOfPair& cylinder, const EdgeAt& edge_at) {
-    HWY_ALIGN float column[9][kLanes];
+  // Of the edges from `first` on. The last lanes may repeat an edge.
+  static HWY_INLINE EdgeLanes load(const Solid& solid, const CylinderOfPair& cylinder,
+                                   size_t first) {
+    std::array<size_t, kLanes> edge;
     for (size_t lane = 0; lane < kLanes; ++lane) {
-      const size_t e = edge_at(lane);
-      const float* const faces[2] = {solid.plane_record[solid.side[0][e]].data(),
-                                     solid.plane_record[solid.side[1][e]].data()};
-      const float* const point = solid.point_record[solid.edges[e].from].data();
-      for (size_t c = 0; c < 3; ++c) {
-        column[c][lane] = faces[0][c];
-        column[3 + c][lane] = faces[1][c];
-        column[6 + c][lane] = point[c];
-      }
+      edge[lane] = std::min(first + lane, solid.edge_count - 1);
     }
-    const FloatTag tag;
-    left = {hn::Load(tag, column[0]), hn::Load(tag, column[1]), hn::Load(tag, column[2])};
-    right = {hn::Load(tag, column[3]), hn::Load(tag, column[4]), hn::Load(tag, column[5])};
-    const F3 from = {hn::Load(tag, column[6]), hn::Load(tag, column[7]), hn::Load(tag, column[8])};
-    d = unit(cross(left, right));
-    way = cylinder.middle - from * splat(solid.scale);
+    const auto left_face = [&](size_t lane) {
+      return solid.plane_record + solid.side[0][edge[lane]];
+    };
+    const auto right_face = [&](size_t lane) {
+      return solid.plane_record + solid.side[1][edge[lane]];
+    };
+    const auto point = [&](size_t lane) {
+      return solid.point_record + solid.edges[edge[lane]].from;
+    };
+    EdgeLanes arc;
+    F3 from;
+    F unused;
+    transpose_records(RecordsOf<decltype(left_face)>{left_face}, arc.left, unused);
+    transpose_records(RecordsOf<decltype(right_face)>{right_face}, arc.right, unused);
+    transpose_records(RecordsOf<decltype(point)>{point}, from, unused);
+    arc.d = unit(cross(arc.left, arc.right));
+    arc.way = cylinder.middle - from * splat(solid.scale);
+    return arc;
   }
 
   HWY_INLINE Mask holds(const F3& n) const {
@@ -161,15 +179,16 @@ struct EdgeLanes {
   }
 };
 
-// An upper bound of the gap on the arcs; `n`: their middles.
-HWY_INLINE F bound_on_arcs(const EdgeLanes& arc, const CylinderOfPair& cylinder, F3& n) {
+// An upper bound of the gap on the arcs; `gap`: that at their middles.
+HWY_INLINE F bound_on_arcs(const EdgeLanes& arc, const CylinderOfPair& cylinder, F& gap) {
   const F zero = splat(0);
-  n = unit(arc.left + arc.right);
+  const F3 n = unit(arc.left + arc.right);
   const F along = dot(n, cylinder.axis);
   const F3 across = n - cylinder.axis * along;
   const F over = hn::Div(splat(1), max(hn::Sqrt(dot(across, across)), splat(kLeastRim)));
   const F3 slope = (arc.way - cylinder.axis * hn::CopySign(cylinder.half_length, along)) -
                    across * hn::Mul(cylinder.rim, over);
+  gap = dot(slope, n);
   const F at_left = dot(slope, arc.left), at_right = dot(slope, arc.right);
   const F from_left = dot(slope, cross(arc.d, arc.left));
   const F from_right = dot(slope, cross(arc.d, arc.right));
@@ -276,54 +295,92 @@ HWY_INLINE void search_across(const EdgeLanes& arc, const CylinderOfPair& cylind
   found.put(0, gap, out, hn::Not(no_lanes()));
 }
 
-// The edges on whose arcs the gap may exceed `most`, in order.
-size_t find_open(const Solid& solid, const CylinderOfPair& cylinder, float most,
-                 std::array<uint32_t, Solid::kMostEdges + kLanes>& open) {
-  size_t count = 0;
-  for (size_t first = 0; first < solid.edge_count; first += kLanes) {
-    const size_t last = solid.edge_count - 1;
-    const EdgeLanes arc(solid, cylinder, [&](size_t lane) { return std::min(first + lane, last); });
-    F3 middle;
-    const F bound = bound_on_arcs(arc, cylinder, middle);
-    const Mask exists = hn::FirstN(FloatTag(), solid.edge_count - first);
-    const Mask is_open = hn::And(exists, hn::Gt(bound, splat(most)));
-    const Indices edges = hn::Iota(IndexTag(), static_cast<uint32_t>(first));
-    count += compress_store(edges, is_open, open.data() + count);
-  }
-  return count;
+// Calls use(column, lanes) for every column of waiting edges.
+template <class Use>
+HWY_INLINE void for_each_column(EdgeLanes& arc, CylinderOfPair& cylinder, const Use& use) {
+  const auto use3 = [&](size_t column, F3& v) HWY_ATTR {
+    use(column, v.x);
+    use(column + 1, v.y);
+    use(column + 2, v.z);
+  };
+  use3(0, arc.left);
+  use3(3, arc.right);
+  use3(6, arc.way);
+  use3(9, cylinder.axis);
+  use3(12, cylinder.middle);
+  use(15, cylinder.half_length);
+  use(16, cylinder.rim);
 }
 
-void keep_edges(const Solid& solid, const CylinderOfPair& cylinder, SolidWay& best) {
-  std::array<uint32_t, Solid::kMostEdges + kLanes> open;
-  const size_t count = find_open(solid, cylinder, best.gap, open);
-  for (size_t first = 0; first < count; first += kLanes) {
-    const EdgeLanes arc(solid, cylinder, [&](size_t lane) {
-      return size_t{open[std::min(first + lane, count - 1)]};
+void finish(SolidWay* ways, WaitingArcs& waiting) {
+  const IndexTag bits;
+  for (size_t first = 0; first < waiting.count; first += kLanes) {
+    EdgeLanes arc;
+    CylinderOfPair cylinder;
+    for_each_column(arc, cylinder, [&](size_t column, F& v) HWY_ATTR {
+      v = hn::BitCast(FloatTag(), hn::LoadU(bits, waiting.column[column].data() + first));
     });
+    arc.d = unit(cross(arc.left, arc.right));
     const F3 middle = unit(arc.left + arc.right);
     FoundOnEdges found;
     search_across(arc, cylinder, found);
     search_side(arc, middle, cylinder, 1, 1, found);
     search_side(arc, middle, cylinder, -1, 2, found);
-    for (size_t lane = 0; lane < std::min(kLanes, count - first); ++lane) {
+    for (size_t lane = 0; lane < std::min(kLanes, waiting.count - first); ++lane) {
+      SolidWay& best = ways[waiting.pair[first + lane]];
       for (size_t which = 0; which < 3; ++which) {
-        best.keep_if_wider(found.way(which, lane, open[first + lane]));
+        best.keep_if_wider(found.way(which, lane, waiting.edge[first + lane]));
       }
     }
   }
+  waiting.count = 0;
 }
 
-SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& placed) {
+// Appends the edges on whose arcs the gap may exceed that of the pair's way so far, in order.
+void leave_edges(const Solid& solid, CylinderOfPair cylinder, uint8_t pair, SolidWay* ways,
+                 WaitingArcs& waiting) {
+  const IndexTag bits;
+  F most = splat(ways[pair].gap);
+  HWY_ALIGN float bounds[Solid::kMostEdges + kLanes];
+  for (size_t first = 0; first < solid.edge_count; first += kLanes) {
+    F gap;
+    const F bound = bound_on_arcs(EdgeLanes::load(solid, cylinder, first), cylinder, gap);
+    most = max(most, hn::Sub(gap, splat(kNotEnded)));
+    hn::StoreU(bound, FloatTag(), bounds + first);
+  }
+  most = hn::MaxOfLanes(FloatTag(), most);
+  for (size_t first = 0; first < solid.edge_count; first += kLanes) {
+    const F bound = hn::LoadU(FloatTag(), bounds + first);
+    const Mask exists = hn::FirstN(FloatTag(), solid.edge_count - first);
+    const Mask is_open = hn::And(exists, hn::Gt(bound, most));
+    if (hn::AllFalse(FloatTag(), is_open)) continue;
+    if (waiting.count + kLanes > WaitingArcs::kMost) finish(ways, waiting);
+    EdgeLanes arc = EdgeLanes::load(solid, cylinder, first);
+    const size_t at = waiting.count;
+    for_each_column(arc, cylinder, [&](size_t column, F& v) HWY_ATTR {
+      compress_store(hn::BitCast(bits, v), is_open, waiting.column[column].data() + at);
+    });
+    const Indices edges = hn::Iota(bits, static_cast<uint32_t>(first));
+    waiting.count += compress_store(edges, is_open, waiting.edge.data() + at);
+    std::fill(waiting.pair.data() + at, waiting.pair.data() + waiting.count, pair);
+  }
+}
+
+void begin(const Solid& solid, const PlacedCylinder& placed, uint8_t pair, SolidWay* ways,
+           WaitingArcs& waiting) {
   const CylinderOfPair cylinder(placed);
   SolidWay best;
   best.keep_if_wider(best_face(solid, cylinder));
   keep_caps(solid, placed, best);
   best.keep_if_wider(best_corner(solid, placed, cylinder));
-  keep_edges(solid, cylinder, best);
-  return best;
+  ways[pair] = best;
+  leave_edges(solid, cylinder, pair, ways, waiting);
 }
 
-FindSolidWay find_way() { return &find_solid_way; }
+const SolidWaySteps& solid_way_steps() {
+  static constexpr SolidWaySteps kSteps = {&begin, &finish};
+  return kSteps;
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
@@ -335,11 +392,11 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(find_way);
+HWY_EXPORT(solid_way_steps);
 
 }  // namespace
 
-FindSolidWay find_solid_way_in_lanes() { return CAROM_DISPATCH(find_way)(); }
+const SolidWaySteps& solid_way_steps_in_lanes() { return CAROM_DISPATCH(solid_way_steps)(); }
 
 }  // namespace carom
 #endif  // HWY_ONCE

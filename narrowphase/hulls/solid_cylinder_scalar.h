@@ -86,10 +86,10 @@ struct EdgeArc {
   }
 };
 
-// The middle of an arc, and a bound of the gap on the whole arc by the slope there.
+// The middle of an arc, the gap there, and a bound of the gap on the whole arc by the slope there.
 struct ArcMiddle {
   Vector3f n;
-  float bound;
+  float gap, bound;
 
   ArcMiddle(const EdgeArc& arc, const PlacedCylinder& cylinder) : n(unit(arc.left + arc.right)) {
     const float along = dot(n, cylinder.axis);
@@ -97,6 +97,7 @@ struct ArcMiddle {
     const float over = 1 / max(std::sqrt(dot(across, across)), kLeastRim);
     const Vector3f slope = (arc.way - cylinder.axis * std::copysign(cylinder.half_length, along)) -
                            across * (cylinder.rim * over);
+    gap = dot(slope, n);
     const float at_left = dot(slope, arc.left), at_right = dot(slope, arc.right);
     const float from_left = dot(slope, cross(arc.d, arc.left));
     const bool has_peak = from_left > 0 && dot(slope, cross(arc.d, arc.right)) < 0;
@@ -203,7 +204,11 @@ inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinde
     const Vector3f n = way_from_corner(solid.corner(i), cylinder);
     best.keep_if_wider({cylinder.gap_over(n, height_along(solid, n)), n, Feature::corner, i});
   }
-  const float most = best.gap;
+  // The widest gap that is known.
+  float most = best.gap;
+  for (uint32_t e = 0; e < solid.edge_count; ++e) {
+    most = max(most, ArcMiddle(EdgeArc(solid, e, cylinder.middle), cylinder).gap - kNotEnded);
+  }
   for (uint32_t e = 0; e < solid.edge_count; ++e) {
     const EdgeArc arc(solid, e, cylinder.middle);
     const ArcMiddle middle(arc, cylinder);

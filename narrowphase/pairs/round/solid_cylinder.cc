@@ -1,8 +1,11 @@
 #include "narrowphase/pairs/round/solid_cylinder.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "narrowphase/batch/row_store.h"
@@ -16,12 +19,15 @@
 namespace carom {
 namespace {
 
+// Of a shape with faces the part without a rounding, which its caller adds.
 template <class T>
 auto float_shape_at(const BodyReader& body, size_t index) {
   if constexpr (std::is_same_v<T, Hull>) {
     return scalar::HullShape<float>{geometry_at<HullGeometry>(body.row(index, 0)), 1};
   } else {
-    return scalar::shape_as<float>(std::get<T>(shape_of(body, index)));
+    auto shape = scalar::shape_as<float>(std::get<T>(shape_of(body, index)));
+    if constexpr (std::is_same_v<T, Box>) shape.rounding = 0;
+    return shape;
   }
 }
 
@@ -32,17 +38,74 @@ class SolidCylinderRows {
       : batch_(batch),
         kind_a_(kind_a),
         kind_b_(kind_b),
+        is_flipped_(kind_a == ShapeKind::cylinder),
         view_a_(view_of(batch.a, batch.layout, kind_a)),
         view_b_(view_of(batch.b, batch.layout, kind_b)),
         store_(batch, kind_a, kind_b) {}
 
-  void run(size_t row) const {
-    std::array<float, 10> answer;
-    if (!is_valid_pair(batch_, kind_a_, kind_b_, row)) {
-      answer.fill(std::numeric_limits<float>::quiet_NaN());
-      return store_.put(row, Status::invalid, answer);
+  void run(size_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      placed_[i].reset();
+      if (!is_valid_pair(batch_, kind_a_, kind_b_, first + i)) continue;
+      place(first + i, placed_[i].emplace());
+      const Placed& pair = *placed_[i];
+      if (scalar::has_edges(pair.solid->view())) {
+        steps_.begin(pair.solid->view(), pair.cylinder_in_solid, static_cast<uint8_t>(i),
+                     ways_.data(), waiting_);
+      }
     }
-    const scalar::SolidCylinderTest test = in_floats(row);
+    steps_.finish(ways_.data(), waiting_);
+    for (size_t i = 0; i < count; ++i) {
+      if (placed_[i]) {
+        put(first + i, tested(*placed_[i], ways_[i]));
+      } else {
+        std::array<float, 10> none;
+        none.fill(std::numeric_limits<float>::quiet_NaN());
+        store_.put(first + i, Status::invalid, none);
+      }
+    }
+  }
+
+  static constexpr size_t kMost = 32;  // rows at a time
+
+ private:
+  using FloatSolid = decltype(float_shape_at<SolidShape>(std::declval<BodyReader>(), 0));
+
+  // A pair in scaled units, seen from the shape with faces.
+  struct Placed {
+    scalar::ScaleOf<float> scale;
+    scalar::PairPose<float> pose;
+    scalar::CylinderShape<float> cylinder;
+    std::optional<SolidOf<FloatSolid>> solid;
+    scalar::PlacedCylinder cylinder_in_solid;
+  };
+
+  void place(size_t row, Placed& placed) const {
+    const Pair pair = batch_.pairs[row];
+    const scalar::PairPose<float> stated = rounded_pose(a_, b_, pair);
+    const scalar::PairPose<float> pose = is_flipped_ ? scalar::flipped(stated) : stated;
+    const auto solid = is_flipped_ ? float_shape_at<SolidShape>(b_, pair.b)
+                                   : float_shape_at<SolidShape>(a_, pair.a);
+    const auto cylinder =
+        is_flipped_ ? float_shape_at<Cylinder>(a_, pair.a) : float_shape_at<Cylinder>(b_, pair.b);
+    placed.scale = scalar::scale_of_pair(solid, cylinder, pose);
+    placed.pose = scalar::scaled_pose(pose, placed.scale);
+    placed.cylinder = cylinder.scaled(placed.scale.down);
+    placed.solid.emplace(solid.scaled(placed.scale.down));
+    placed.cylinder_in_solid =
+        scalar::placed_cylinder(placed.solid->view(), placed.cylinder, placed.pose);
+  }
+
+  scalar::SolidCylinderTest tested(const Placed& pair, const scalar::SolidWay& way) const {
+    if (!scalar::has_edges(pair.solid->view())) return {};
+    scalar::SolidCylinderTest test = scalar::test_solid_cylinder(
+        pair.solid->view(), pair.cylinder_in_solid, way, pair.cylinder, pair.pose);
+    scalar::put_in_metres(test.separation, pair.scale);
+    if (is_flipped_) test.separation = scalar::flipped(test.separation);
+    return test;
+  }
+
+  void put(size_t row, const scalar::SolidCylinderTest& test) const {
     const scalar::Separation& s = test.separation;
     if (batch_.unsure && !test.is_proven) batch_.unsure[row] = 1;
     if (!s.is_unsure && s.separation != 0) {
@@ -51,43 +114,22 @@ class SolidCylinderRows {
                          s.arm_a.y(), s.arm_a.z(), s.arm_b.x(), s.arm_b.y(), s.arm_b.z()});
     }
     const std::array<float, 11> found = exact_answer(batch_, kind_a_, kind_b_, row);
+    std::array<float, 10> answer;
     std::copy_n(found.begin(), answer.size(), answer.begin());
     store_.put(row, found[10] != 0 ? Status::degenerate : Status::ok, answer);
     if (batch_.unsure) batch_.unsure[row] = 1;
   }
 
- private:
-  scalar::SolidCylinderTest in_floats(size_t row) const {
-    const Pair pair = batch_.pairs[row];
-    const scalar::PairPose<float> pose = rounded_pose(a_, b_, pair);
-    if (kind_a_ == ShapeKind::cylinder) {
-      scalar::SolidCylinderTest test =
-          separate(float_shape_at<SolidShape>(b_, pair.b), float_shape_at<Cylinder>(a_, pair.a),
-                   scalar::flipped(pose));
-      test.separation = scalar::flipped(test.separation);
-      return test;
-    }
-    return separate(float_shape_at<SolidShape>(a_, pair.a), float_shape_at<Cylinder>(b_, pair.b),
-                    pose);
-  }
-
-  template <class S>
-  scalar::SolidCylinderTest separate(const S& solid, const scalar::CylinderShape<float>& cylinder,
-                                     const scalar::PairPose<float>& pose) const {
-    const auto scale = scalar::scale_of_pair(solid, cylinder, pose);
-    scalar::SolidCylinderTest test =
-        scalar::test_solid_cylinder(solid.scaled(scale.down), cylinder.scaled(scale.down),
-                                    scalar::scaled_pose(pose, scale), find_way_);
-    scalar::put_in_metres(test.separation, scale);
-    return test;
-  }
-
   const Batch& batch_;
   const ShapeKind kind_a_, kind_b_;
+  const bool is_flipped_;
   const Collidables view_a_, view_b_;
   const BodyReader a_{view_a_}, b_{view_b_};
   const RowStore store_;
-  const FindSolidWay find_way_ = find_solid_way_in_lanes();
+  const SolidWaySteps& steps_ = solid_way_steps_in_lanes();
+  std::array<std::optional<Placed>, kMost> placed_;
+  std::array<scalar::SolidWay, kMost> ways_;
+  WaitingArcs waiting_;
 };
 
 }  // namespace
@@ -99,8 +141,11 @@ void run_solid_cylinder(const Batch& batch) {
   const ShapeKind kind_a = is_flipped ? ShapeKind::cylinder : kind;
   const ShapeKind kind_b = is_flipped ? kind : ShapeKind::cylinder;
   if (batch.pass == Pass::manifold) return run_manifolds_one_by_one(batch, kind_a, kind_b);
-  const SolidCylinderRows<SolidShape> rows(batch, kind_a, kind_b);
-  for (size_t row = 0; row < batch.count; ++row) rows.run(row);
+  SolidCylinderRows<SolidShape> rows(batch, kind_a, kind_b);
+  constexpr size_t kMost = SolidCylinderRows<SolidShape>::kMost;
+  for (size_t first = 0; first < batch.count; first += kMost) {
+    rows.run(first, std::min(kMost, batch.count - first));
+  }
 }
 
 template void run_solid_cylinder<Aabb>(const Batch& batch);

@@ -15,20 +15,29 @@ struct SolidCylinderTest {
   bool is_proven = false;
 };
 
-// `find(solid, cylinder)` finds the best way out of the solid. Shapes without known faces and edges
-// are left to double precision.
-template <class S, class Find>
-SolidCylinderTest test_solid_cylinder(const S& shape, const CylinderShape<float>& cylinder,
-                                      const PairPose<float>& pose, const Find& find) {
+// Shapes without known faces and edges are left to double precision.
+inline bool has_edges(const Solid& solid) { return solid.is_known() && solid.edges; }
+
+inline Rotation<float> turn_of(const Solid& solid, const PairPose<float>& pose) {
+  if (solid.is_turned) return rotation_of(pose.a);
+  return {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+}
+
+inline PlacedCylinder placed_cylinder(const Solid& solid, const CylinderShape<float>& cylinder,
+                                      const PairPose<float>& pose) {
+  const Rotation<float> turn = turn_of(solid, pose);
+  return {rotate_back(turn, pose.d), rotate_back(turn, rotation_of(pose.b).z), cylinder.half_length,
+          cylinder.radius};
+}
+
+// `way`: the best out of the solid.
+inline SolidCylinderTest test_solid_cylinder(const Solid& solid, const PlacedCylinder& placed,
+                                             const SolidWay& way,
+                                             const CylinderShape<float>& cylinder,
+                                             const PairPose<float>& pose) {
   SolidCylinderTest test;
-  const SolidOf<S> solid_of_shape(shape);
-  const Solid& solid = solid_of_shape.view();
-  if (!solid.is_known() || !solid.edges) return test;
-  Rotation<float> turn{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-  if (solid.is_turned) turn = rotation_of(pose.a);
-  const PlacedCylinder placed{rotate_back(turn, pose.d), rotate_back(turn, rotation_of(pose.b).z),
-                              cylinder.half_length, cylinder.radius};
-  const SolidContact contact = contact_along(solid, placed, find(solid, placed));
+  const Rotation<float> turn = turn_of(solid, pose);
+  const SolidContact contact = contact_along(solid, placed, way);
   Separation& s = test.separation;
   s.separation = contact.separation - cylinder.rounding;
   s.normal = rotate(turn, contact.normal);
@@ -42,7 +51,12 @@ SolidCylinderTest test_solid_cylinder(const S& shape, const CylinderShape<float>
 template <class S>
 Separation solid_cylinder_separation(const S& shape, const CylinderShape<float>& cylinder,
                                      const PairPose<float>& pose) {
-  return test_solid_cylinder(shape, cylinder, pose, find_solid_way).separation;
+  const SolidOf<S> solid_of_shape(shape);
+  const Solid& solid = solid_of_shape.view();
+  if (!has_edges(solid)) return not_in_float<float>();
+  const PlacedCylinder placed = placed_cylinder(solid, cylinder, pose);
+  const SolidWay way = find_solid_way(solid, placed);
+  return test_solid_cylinder(solid, placed, way, cylinder, pose).separation;
 }
 
 }  // namespace carom::scalar
