@@ -76,7 +76,7 @@ inline constexpr size_t kArcSteps = 4;
 inline constexpr size_t kSolidArcSteps = 5;
 inline constexpr float kLongArc = 0x1p-3f;
 inline constexpr float kShortArc = 0x1p-4f;
-inline constexpr float kLastArc = 0x1p-9f;
+inline constexpr float kLastArc = 0x1p-11f;
 inline constexpr float kNotEnded = 0x1p-16f;
 
 // Searches for two rims: the steps, the longest of them as a share of the sine between the

@@ -10,7 +10,7 @@ DOCUMENT = ROOT / "docs" / "pair_kinds.md"
 
 HEAD = """# Pair kinds
 
-Every pair of kinds that has a kernel in lanes; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
+Every pair of kinds that has a kernel of its own; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
 `narrowphase/pairs/pair_list.inc` and the files that it names; a test says if it is out of date.
 
 - **direction**: of pairs that are apart the direction is kept and tried first in the next frame.
@@ -21,8 +21,8 @@ Every pair of kinds that has a kernel in lanes; meshes and compounds are tested 
 """
 
 TAIL = """
-Cylinders, cones and ellipsoids meet every convex kind, each other and half-spaces by one way, a pair at a time and in
-double precision: [round shapes](design/round_shapes.md). Those of spheres have one point, the others manifolds.
+All other pairs of cylinders, cones and ellipsoids with convex kinds, each other and half-spaces go one way, a pair at a time and
+in double precision: [round shapes](design/round_shapes.md). They have manifolds.
 
 Boxes and hulls with a rounding (`rounded_box`, `rounded_hull`) meet the same kinds, and each other, by the tests of their
 cores: [rounded boxes and hulls](design/round_shapes.md#rounded-boxes-and-hulls).

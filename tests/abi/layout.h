@@ -42,7 +42,7 @@ static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Vector3d) == 24);
 static_assert(sizeof(Orientation) == 16 && sizeof(Pose) == 40);
 static_assert(offsetof(Pose, position) == 0 && offsetof(Pose, orientation) == 24);
 static_assert(sizeof(Sphere) == 4 && sizeof(Aabb) == 24 && sizeof(Capsule) == 28);
-static_assert(sizeof(Box) == 12 && sizeof(Triangle) == 44 && sizeof(Halfspace) == 16);
+static_assert(sizeof(Box) == 16 && sizeof(Triangle) == 44 && sizeof(Halfspace) == 16);
 static_assert(sizeof(Dop) == 112 + 2 * sizeof(void*) && sizeof(Sweep) == 24);
 static_assert(offsetof(Capsule, b) == 12 && offsetof(Capsule, radius) == 24);
 static_assert(offsetof(Triangle, thickness) == 36 && offsetof(Halfspace, offset) == 12);

@@ -15,8 +15,9 @@ struct SolidCylinderTest {
   bool is_proven = false;
 };
 
-// Shapes without known faces and edges are left to double precision.
-inline bool has_edges(const Solid& solid) { return solid.is_known() && solid.edges; }
+// Shapes without known faces are left to double precision, and so are k-DOPs, whose edges are not
+// stored.
+inline bool has_edges(const Solid& solid) { return solid.is_known() && !solid.dop; }
 
 inline Rotation<float> turn_of(const Solid& solid, const PairPose<float>& pose) {
   if (solid.is_turned) return rotation_of(pose.a);

@@ -1,0 +1,180 @@
+// Kernels that search for the best direction, beside the searches in double precision: on many
+// random pairs, half of which overlap.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "narrowphase/pairs/any_pair.h"
+#include "oracle/hull_faces.h"
+#include "oracle/random.h"
+
+namespace carom::test {
+namespace {
+
+using oracle::Random;
+
+// How lengths are drawn: much alike, or from needles to plates.
+enum class Sizes { alike, mixed };
+
+class RandomPairs {
+ public:
+  RandomPairs(ShapeKind a, ShapeKind b, Sizes sizes, uint64_t seed)
+      : a_(a), b_(b), sizes_(sizes), random_(seed) {}
+
+  struct Drawn {
+    Shape a, b;
+    scalar::PairPose<double> pose;
+    double scale;  // the mean of the greatest lengths
+  };
+
+  // B lies at a random share of the way on which it leaves A.
+  Drawn draw() {
+    Drawn pair{shape(a_), {}, {}, std::exchange(greatest_, 0.0f) / 2};
+    pair.b = shape(b_);
+    pair.scale += std::exchange(greatest_, 0.0f) / 2;
+    pair.pose.a = turn();
+    pair.pose.b = turn();
+    const Eigen::Vector3d way = random_.direction();
+    double inside = 0, outside = 8;
+    for (int i = 0; i < 12; ++i) {
+      const double middle = (inside + outside) / 2;
+      place(way * middle, pair.pose);
+      (separation<double>(pair).separation > 0 ? outside : inside) = middle;
+    }
+    place(way * (inside * random_.uniform(0.3, 1.7)), pair.pose);
+    return pair;
+  }
+
+  template <class Real>
+  static scalar::SeparationAs<Real> separation(const Drawn& pair) {
+    const auto turn_as = [](const scalar::Quaternion<double>& q) {
+      return scalar::Quaternion<Real>{q.v.cast<Real>(), static_cast<Real>(q.w)};
+    };
+    return scalar::separation_of<Real>(pair.a, pair.b,
+                                       {pair.pose.d.cast<Real>(), turn_as(pair.pose.a),
+                                        turn_as(pair.pose.b), pair.pose.back.cast<Real>()});
+  }
+
+ private:
+  // In numbers that float32 holds.
+  static void place(const Eigen::Vector3d& d, scalar::PairPose<double>& pose) {
+    pose.d = d.cast<float>().cast<double>();
+    pose.back = -pose.d;
+  }
+
+  float length() {
+    const double share = random_.uniform(0, 1);
+    const auto drawn =
+        static_cast<float>(sizes_ == Sizes::alike ? 0.25 + 0.75 * share : std::exp(-3 * share));
+    greatest_ = std::max(greatest_, drawn);
+    return drawn;
+  }
+
+  Eigen::Vector3f lengths() {
+    const float x = length(), y = length();
+    return {x, y, length()};
+  }
+
+  scalar::Quaternion<double> turn() {
+    const Eigen::Quaternionf q(Eigen::AngleAxisf(static_cast<float>(random_.uniform(0, 6)),
+                                                 random_.direction().cast<float>()));
+    return {q.vec().cast<double>(), q.w()};
+  }
+
+  Shape shape(ShapeKind kind) {
+    switch (kind) {
+      case ShapeKind::capsule: {
+        const Eigen::Vector3f end = length() * random_.direction().cast<float>();
+        return Capsule{-end, end, length() / 2};
+      }
+      case ShapeKind::box:
+        return Box{lengths()};
+      case ShapeKind::hull: {
+        const Eigen::Vector3f half = lengths();
+        std::vector<Eigen::Vector3f> points(16);
+        for (auto& p : points) p = half.cwiseProduct(random_.direction().cast<float>());
+        return oracle::hull_of(points);
+      }
+      case ShapeKind::cylinder: {
+        const float radius = length();
+        return Cylinder{radius, length()};
+      }
+      default:
+        return Ellipsoid{lengths()};
+    }
+  }
+
+  const ShapeKind a_, b_;
+  const Sizes sizes_;
+  Random random_;
+  float greatest_ = 0;
+};
+
+struct Tally {
+  size_t overlapping = 0, unsure = 0, wrong = 0;
+  double worst = 0;  // share of the size by which a depth is too great
+};
+
+using Kinds = std::tuple<ShapeKind, ShapeKind, Sizes>;
+class RoundKernels : public testing::TestWithParam<Kinds> {};
+
+TEST_P(RoundKernels, FindTheBestDirection) {
+  const auto [kind_a, kind_b, sizes] = GetParam();
+  constexpr size_t kPairs = 4000;
+  constexpr double kAsStated = 2e-6;
+  RandomPairs pairs(kind_a, kind_b, sizes, 1);
+  Tally tally;
+  for (size_t i = 0; i < kPairs; ++i) {
+    const RandomPairs::Drawn pair = pairs.draw();
+    const auto exact = RandomPairs::separation<double>(pair);
+    const auto found = RandomPairs::separation<float>(pair);
+    tally.overlapping += exact.separation <= 0;
+    if (found.is_unsure) {
+      ++tally.unsure;
+      continue;
+    }
+    const double error = found.separation - exact.separation;
+    const double rounding = kAsStated * (pair.scale + std::fabs(exact.separation)) +
+                            0x1p-21 * pair.pose.d.lpNorm<Eigen::Infinity>();
+    // Any direction parts the shapes by its gap: no depth is too small.
+    ASSERT_LE(error, rounding) << i;
+    if (error >= -rounding) continue;
+    ASSERT_LT(found.separation, 0) << i << ", off by " << error << " of " << pair.scale;
+    ++tally.wrong;
+    tally.worst = std::max(tally.worst, -error / pair.scale);
+  }
+  EXPECT_GT(tally.overlapping, kPairs * 2 / 5);
+  EXPECT_LT(tally.overlapping, kPairs * 3 / 5);
+  EXPECT_LE(tally.unsure, kPairs / 50);
+  EXPECT_LE(tally.wrong, kPairs / 1000);
+  EXPECT_LE(tally.worst, 0.05);
+}
+
+std::string kinds_name(const testing::TestParamInfo<Kinds>& info) {
+  const auto [a, b, sizes] = info.param;
+  return std::string(name(a)) + "_" + name(b) + (sizes == Sizes::alike ? "" : "_mixed");
+}
+
+std::vector<Kinds> searching_kinds() {
+  using enum ShapeKind;
+  std::vector<Kinds> all;
+  for (const Sizes sizes : {Sizes::alike, Sizes::mixed}) {
+    all.emplace_back(capsule, cylinder, sizes);
+    all.emplace_back(box, cylinder, sizes);
+    all.emplace_back(hull, cylinder, sizes);
+    all.emplace_back(cylinder, cylinder, sizes);
+    all.emplace_back(ellipsoid, ellipsoid, sizes);
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RoundKernels, testing::ValuesIn(searching_kinds()), kinds_name);
+
+}  // namespace
+}  // namespace carom::test
