@@ -65,6 +65,12 @@ inline constexpr float kShortAxis = 0x1p-12f;
 // Both points of a contact may lie beside the shapes by this: some roundings of their places.
 inline constexpr float kBesideCore = 0x1p-18f;
 
+// Of a solid they may lie in front of a face by this. At a sharp corner that may be far from the solid:
+// a hull is blunt enough if a ball of this share of its size lies inside, and a triangle if the sine
+// at each of its corners is as great.
+inline constexpr float kBesideSolid = 0x1p-20f;
+inline constexpr float kBlunt = 0x1p-3f;
+
 // Searches on arcs: samples of a quarter, their cosines, the steps of Newton's method, the longest
 // of them (three quarters of a sample), one where the curve is no peak, and one that is short
 // enough to be the last: the gap is then off by the square of what is left, the square of this.
@@ -77,7 +83,7 @@ inline constexpr size_t kSolidArcSteps = 5;
 inline constexpr float kLongArc = 0x1p-3f;
 inline constexpr float kShortArc = 0x1p-4f;
 inline constexpr float kLastArc = 0x1p-11f;
-inline constexpr float kNotEnded = 0x1p-16f;
+inline constexpr float kNotEnded = 0x1p-20f;
 
 // Searches for two rims: the steps, the longest of them as a share of the sine between the
 // direction and the nearer axis, the least product of curvatures of a peak, the least distance from

@@ -258,24 +258,26 @@ inline Vector3f crossing_on_edge(const Solid& solid, const PlacedCylinder& cylin
   return solid.corner(solid.edges[way.place].from) + arc.d * share;
 }
 
-// A contact is sure if its points lie on both shapes: then no other direction has a wider gap, if
-// they are apart.
+// The gap is measured again by all corners, so that it parts the shapes whatever the search has
+// found. A contact is sure if its points lie on both shapes: then no other direction has a wider
+// gap, if they are apart.
 inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cylinder,
                                   const SolidWay& way) {
   using Feature = SolidWay::Feature;
   const AxialCore core{cylinder.axis, cylinder.half_length, cylinder.rim};
-  const Vector3f to_cylinder = way.n * way.gap;
+  const float gap = cylinder.gap_over(way.n, height_along(solid, way.n));
+  const Vector3f to_cylinder = way.n * gap;
   Vector3f on_solid = (cylinder.middle - furthest_point(core, way.n)) - to_cylinder;
   if (way.feature == Feature::corner) on_solid = solid.corner(way.place);
   if (way.feature == Feature::cap) on_solid = furthest_corner(solid, way.n);
   if (way.feature == Feature::crossing) on_solid = crossing_on_edge(solid, cylinder, way);
   const Vector3f on_cylinder = (on_solid + to_cylinder) - cylinder.middle;
-  const bool is_sure =
-      way.has_ended && is_within(solid, on_solid, kBesideCore) && holds(core, on_cylinder);
+  const bool is_sure = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid &&
+                       is_within(solid, on_solid, kBesideSolid) && holds(core, on_cylinder);
   const Vector3f common = on_solid + to_cylinder * 0.5f;
   const bool is_common =
       is_within(solid, common, -kSureGap) && holds(core, common - cylinder.middle, -kSureGap);
-  return {way.gap, way.n, on_solid, is_sure, way.gap > 0 || is_common};
+  return {gap, way.n, on_solid, is_sure, gap > 0 || is_common};
 }
 
 }  // namespace carom::scalar

@@ -49,7 +49,7 @@ class SolidCylinderRows {
       if (!is_valid_pair(batch_, kind_a_, kind_b_, first + i)) continue;
       place(first + i, placed_[i].emplace());
       const Placed& pair = *placed_[i];
-      if (scalar::has_edges(pair.solid->view())) {
+      if (pair.has_kernel) {
         steps_.begin(pair.solid->view(), pair.cylinder_in_solid, static_cast<uint8_t>(i),
                      ways_.data(), waiting_);
       }
@@ -77,6 +77,7 @@ class SolidCylinderRows {
     scalar::PairPose<float> pose;
     scalar::CylinderShape<float> cylinder;
     std::optional<SolidOf<FloatSolid>> solid;
+    bool has_kernel;
     scalar::PlacedCylinder cylinder_in_solid;
   };
 
@@ -91,13 +92,15 @@ class SolidCylinderRows {
     placed.scale = scalar::scale_of_pair(solid, cylinder, pose);
     placed.pose = scalar::scaled_pose(pose, placed.scale);
     placed.cylinder = cylinder.scaled(placed.scale.down);
-    placed.solid.emplace(solid.scaled(placed.scale.down));
+    const auto scaled_solid = solid.scaled(placed.scale.down);
+    placed.solid.emplace(scaled_solid);
+    placed.has_kernel = scalar::has_kernel(scaled_solid, placed.solid->view());
     placed.cylinder_in_solid =
         scalar::placed_cylinder(placed.solid->view(), placed.cylinder, placed.pose);
   }
 
   scalar::SolidCylinderTest tested(const Placed& pair, const scalar::SolidWay& way) const {
-    if (!scalar::has_edges(pair.solid->view())) return {};
+    if (!pair.has_kernel) return {};
     scalar::SolidCylinderTest test = scalar::test_solid_cylinder(
         pair.solid->view(), pair.cylinder_in_solid, way, pair.cylinder, pair.pose);
     scalar::put_in_metres(test.separation, pair.scale);

@@ -15,9 +15,29 @@ struct SolidCylinderTest {
   bool is_proven = false;
 };
 
-// Shapes without known faces are left to double precision, and so are k-DOPs, whose edges are not
-// stored.
-inline bool has_edges(const Solid& solid) { return solid.is_known() && !solid.dop; }
+// Whether a point that lies before no face by more than a little lies near the shape.
+inline bool is_blunt(const BoxShape<float>&) { return true; }
+inline bool is_blunt(const AabbShape<float>&) { return true; }
+inline bool is_blunt(const HullShape<float>& hull) {
+  const HullGeometry::Balls& balls = hull.geometry->balls();
+  return balls.inner >= kBlunt * balls.outer[3];
+}
+inline bool is_blunt(const TriangleShape<float>& triangle) {
+  for (size_t i = 0; i < 3; ++i) {
+    const Vector3f& corner = triangle.corners[i];
+    const Vector3f u = triangle.corners[(i + 1) % 3] - corner;
+    const Vector3f v = triangle.corners[(i + 2) % 3] - corner;
+    const Vector3f across = cross(u, v);
+    if (!(dot(across, across) >= (kBlunt * kBlunt) * (dot(u, u) * dot(v, v)))) return false;
+  }
+  return true;
+}
+
+// Others are left to double precision, and so are k-DOPs, whose edges are not stored.
+template <class S>
+bool has_kernel(const S& shape, const Solid& solid) {
+  return solid.is_known() && !solid.dop && is_blunt(shape);
+}
 
 inline Rotation<float> turn_of(const Solid& solid, const PairPose<float>& pose) {
   if (solid.is_turned) return rotation_of(pose.a);
@@ -41,7 +61,7 @@ inline SolidCylinderTest test_solid_cylinder(const Solid& solid, const PlacedCyl
   const SolidContact contact = contact_along(solid, placed, way);
   Separation& s = test.separation;
   s.separation = contact.separation - cylinder.rounding;
-  s.normal = rotate(turn, contact.normal);
+  s.normal = unit(rotate(turn, contact.normal));
   s.arm_a = rotate(turn, contact.on_solid);
   s.arm_b = (s.arm_a + s.normal * s.separation) - pose.d;
   s.is_unsure = !(contact.is_sure && std::fabs(s.separation) > kSureGap);
@@ -54,7 +74,7 @@ Separation solid_cylinder_separation(const S& shape, const CylinderShape<float>&
                                      const PairPose<float>& pose) {
   const SolidOf<S> solid_of_shape(shape);
   const Solid& solid = solid_of_shape.view();
-  if (!has_edges(solid)) return not_in_float<float>();
+  if (!has_kernel(shape, solid)) return not_in_float<float>();
   const PlacedCylinder placed = placed_cylinder(solid, cylinder, pose);
   const SolidWay way = find_solid_way(solid, placed);
   return test_solid_cylinder(solid, placed, way, cylinder, pose).separation;
