@@ -273,7 +273,8 @@ inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cyli
   if (way.feature == Feature::crossing) on_solid = crossing_on_edge(solid, cylinder, way);
   const Vector3f on_cylinder = (on_solid + to_cylinder) - cylinder.middle;
   const bool is_sure = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid &&
-                       is_within(solid, on_solid, kBesideSolid) && holds(core, on_cylinder);
+                       is_within(solid, on_solid, kBesideSolid) &&
+                       holds(core, on_cylinder, kBesideSolid);
   const Vector3f common = on_solid + to_cylinder * 0.5f;
   const bool is_common =
       is_within(solid, common, -kSureGap) && holds(core, common - cylinder.middle, -kSureGap);
