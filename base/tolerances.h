@@ -65,9 +65,9 @@ inline constexpr float kShortAxis = 0x1p-12f;
 // Both points of a contact may lie beside the shapes by this: some roundings of their places.
 inline constexpr float kBesideCore = 0x1p-18f;
 
-// Of a solid they may lie in front of a face by this. At a sharp corner that may be far from the solid:
-// a hull is blunt enough if a ball of this share of its size lies inside, and a triangle if the sine
-// at each of its corners is as great.
+// Of a solid they may lie in front of a face by this. At a sharp corner that may be far from the
+// solid: a hull is blunt enough if a ball of this share of its size lies inside, and a triangle if
+// the sine at each of its corners is as great.
 inline constexpr float kBesideSolid = 0x1p-20f;
 inline constexpr float kBlunt = 0x1p-3f;
 
