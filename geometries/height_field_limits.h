@@ -1,4 +1,4 @@
-// What spacings and heights a height field may have.
+// The limits of a height field: its spacings, and its heights.
 #pragma once
 
 #include <cfloat>

@@ -1,4 +1,4 @@
-// What meshes share that differ in their scale alone.
+// Meshes that differ in their scale alone share this.
 #pragma once
 
 #include <array>

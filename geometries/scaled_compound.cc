@@ -51,7 +51,7 @@ Orientation mirrored(const Orientation& q, const Vector3f& scale) {
   return Orientation(q.w(), axis.x(), axis.y(), axis.z());
 }
 
-// What a scale does to a shape that is turned; nothing if it shears it.
+// A scale of a turned shape as a scale along its own axes; nothing if it shears the shape.
 std::optional<TurnedScale> after_turn(const Orientation& orientation, const Vector3f& scale) {
   const bool is_turned = !orientation.vec().isZero(0);
   if (!is_turned) return TurnedScale{orientation, scale};

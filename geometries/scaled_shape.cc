@@ -71,7 +71,7 @@ class Scaler {
     const Eigen::Vector3d normal = plane.normal.cast<double>(), s = scale_.cast<double>();
     const Eigen::Vector3d divided = normal.cwiseQuotient(s);
     const double greatest = divided.cwiseAbs().maxCoeff();
-    // Of about the length that it had.
+    // The normal keeps about the length that it had.
     const double length = is_uniform_    ? double{factors_.x()}
                           : greatest > 0 ? normal.cwiseAbs().maxCoeff() / greatest
                                          : 1;

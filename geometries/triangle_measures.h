@@ -1,4 +1,4 @@
-// What makers of meshes ask about a triangle.
+// Measures of a triangle, for those who make meshes.
 #pragma once
 
 #include <algorithm>

@@ -175,7 +175,7 @@ Result<Shape> apply_rounding(const io::SceneShapes& shapes, size_t index, Result
   return Shape(Compound{std::move(*rounded)});
 }
 
-// What a file says of a set: its scale, then its rounding.
+// A file scales the set first, then rounds it.
 Result<Shape> apply_both(const io::SceneShapes& shapes, size_t index, Result<Shape> set) {
   return apply_rounding(shapes, index, apply_scale(shapes, index, std::move(set)));
 }

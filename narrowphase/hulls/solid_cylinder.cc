@@ -146,7 +146,7 @@ struct RecordsOf {
 struct EdgeLanes {
   F3 left, right, d, way;
 
-  // Of the edges from `first` on. The last lanes may repeat an edge.
+  // Loads the edges from `first` on. The last lanes may repeat an edge.
   static HWY_INLINE EdgeLanes load(const Solid& solid, const CylinderOfPair& cylinder,
                                    size_t first) {
     std::array<size_t, kLanes> edge;
@@ -237,7 +237,7 @@ struct StartLanes {
   }
 };
 
-// What the searches of a vector of edges find: across, then on the side of either cap.
+// The results of the searches of a vector of edges: across, then on the side of either cap.
 struct FoundOnEdges {
   HWY_ALIGN float gap[3][kLanes];
   HWY_ALIGN float n[3][3][kLanes];

@@ -19,7 +19,7 @@
 namespace carom {
 namespace {
 
-// Of a shape with faces the part without a rounding, which its caller adds.
+// The shape of a body. One with faces comes without its rounding, which the caller adds.
 template <class T>
 auto float_shape_at(const BodyReader& body, size_t index) {
   if constexpr (std::is_same_v<T, Hull>) {

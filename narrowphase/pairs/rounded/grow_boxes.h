@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// What is known of a row after its cores were tested.
+// The state of a row after its cores were tested.
 enum class GrownState : uint8_t {
   done = 0,     // it has its answer, or none, since a body is not valid
   near = 1,     // the separation of the cores is only a bound, but they are to be measured

@@ -33,7 +33,7 @@ inline ProfileWay way_from_cone(const ConeShape<float>& cone, float from_axis, f
           (out_axial * over_side + out_radial * beyond_end) * from_side};
 }
 
-// Of a cone that is much smaller than the pair, float32 does not know the slope.
+// float32 does not know the slope of a cone that is much smaller than the pair.
 inline Separation separation(const SphereShape<float>& sphere, const ConeShape<float>& cone,
                              const PairPose<float>& pose) {
   const Rotation<float> turn = rotation_of(pose.b);

@@ -151,7 +151,7 @@ TEST_P(RoundKernels, FindTheBestDirection) {
   }
   EXPECT_GT(tally.overlapping, kPairs * 2 / 5);
   EXPECT_LT(tally.overlapping, kPairs * 3 / 5);
-  // Of hulls one in fifty is sharp, and half of those of mixed sizes.
+  // One hull in fifty is sharp, and half of those of mixed sizes are.
   const bool is_often_sharp = kind_a == ShapeKind::hull && sizes == Sizes::mixed;
   EXPECT_LE(tally.unsure, kPairs / (is_often_sharp ? 2 : 25));
   EXPECT_LE(tally.wrong, kPairs / 1000);
