@@ -45,8 +45,8 @@ inline constexpr double kNearSegment<double> = 0x1p-44;
 // than this share across the axis does not need it.
 inline constexpr float kAlongAxis = 0x1p-12f;
 
-// float32 does not know the slope of a cone whose coordinates are all below this, in scaled units: the
-// squares of its sizes would vanish. Squares of lengths of sides count as kLeastSlant at least.
+// float32 does not know the slope of a cone whose coordinates are all below this, in scaled units:
+// the squares of its sizes would vanish. Squares of lengths of sides count as kLeastSlant at least.
 inline constexpr float kSmallProfile = 0x1p-40f;
 inline constexpr float kLeastSlant = 0x1p-100f;
 
@@ -65,8 +65,8 @@ inline constexpr float kShortAxis = 0x1p-12f;
 // Both points of a contact may lie beside the shapes by this: some roundings of their places.
 inline constexpr float kBesideCore = 0x1p-18f;
 
-// A point of a contact may lie in front of a solid's face by this. At a sharp corner that may be far
-// from the solid: a hull is blunt enough if a ball of this share of its size lies inside, and a
+// A point of a contact may lie in front of a solid's face by this. At a sharp corner that may be
+// far from the solid: a hull is blunt enough if a ball of this share of its size lies inside, and a
 // triangle if the sine at each of its corners is as great.
 inline constexpr float kBesideSolid = 0x1p-20f;
 inline constexpr float kBlunt = 0x1p-3f;
