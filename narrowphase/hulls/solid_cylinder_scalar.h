@@ -226,7 +226,6 @@ struct SolidContact {
   Vector3f normal;  // out of the solid
   Vector3f on_solid;
   bool is_sure;
-  bool is_proven;  // the sign of the separation
 };
 
 // Where the height over no face exceeds `most`.
@@ -275,10 +274,15 @@ inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cyli
   const bool is_sure = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid &&
                        is_within(solid, on_solid, kBesideSolid) &&
                        holds(core, on_cylinder, kBesideSolid);
-  const Vector3f common = on_solid + to_cylinder * 0.5f;
-  const bool is_common =
-      is_within(solid, common, -kSureGap) && holds(core, common - cylinder.middle, -kSureGap);
-  return {gap, way.n, on_solid, is_sure, gap > 0 || is_common};
+  return {gap, way.n, on_solid, is_sure};
+}
+
+// Whether the point between those of the contact lies in both by more than rounding.
+inline bool has_common_point(const Solid& solid, const PlacedCylinder& cylinder,
+                             const SolidContact& contact) {
+  const AxialCore core{cylinder.axis, cylinder.half_length, cylinder.rim};
+  const Vector3f common = contact.on_solid + contact.normal * (contact.separation * 0.5f);
+  return is_within(solid, common, -kSureGap) && holds(core, common - cylinder.middle, -kSureGap);
 }
 
 }  // namespace carom::scalar

@@ -57,7 +57,7 @@ class SolidCylinderRows {
     steps_.finish(ways_.data(), waiting_);
     for (size_t i = 0; i < count; ++i) {
       if (placed_[i]) {
-        put(first + i, tested(*placed_[i], ways_[i]));
+        put(first + i, *placed_[i], ways_[i]);
       } else {
         std::array<float, 10> none;
         none.fill(std::numeric_limits<float>::quiet_NaN());
@@ -74,7 +74,8 @@ class SolidCylinderRows {
   // A pair in scaled units, seen from the shape with faces.
   struct Placed {
     scalar::ScaleOf<float> scale;
-    scalar::PairPose<float> pose;
+    Vector3f d;
+    scalar::Rotation<float> turn;  // of the shape with faces
     scalar::CylinderShape<float> cylinder;
     std::optional<SolidOf<FloatSolid>> solid;
     bool has_kernel;
@@ -90,32 +91,32 @@ class SolidCylinderRows {
     const auto cylinder =
         is_flipped_ ? float_shape_at<Cylinder>(a_, pair.a) : float_shape_at<Cylinder>(b_, pair.b);
     placed.scale = scalar::scale_of_pair(solid, cylinder, pose);
-    placed.pose = scalar::scaled_pose(pose, placed.scale);
+    const scalar::PairPose<float> scaled_pose = scalar::scaled_pose(pose, placed.scale);
+    placed.d = scaled_pose.d;
     placed.cylinder = cylinder.scaled(placed.scale.down);
     const auto scaled_solid = solid.scaled(placed.scale.down);
     placed.solid.emplace(scaled_solid);
     placed.has_kernel = scalar::has_kernel(scaled_solid, placed.solid->view());
-    placed.cylinder_in_solid =
-        scalar::placed_cylinder(placed.solid->view(), placed.cylinder, placed.pose);
+    placed.turn = scalar::turn_of(placed.solid->view(), scaled_pose);
+    placed.cylinder_in_solid = scalar::placed_cylinder(placed.turn, placed.cylinder, scaled_pose);
   }
 
-  scalar::SolidCylinderTest tested(const Placed& pair, const scalar::SolidWay& way) const {
-    if (!pair.has_kernel) return {};
-    scalar::SolidCylinderTest test = scalar::test_solid_cylinder(
-        pair.solid->view(), pair.cylinder_in_solid, way, pair.cylinder, pair.pose);
-    scalar::put_in_metres(test.separation, pair.scale);
-    if (is_flipped_) test.separation = scalar::flipped(test.separation);
-    return test;
+  void put(size_t row, const Placed& pair, const scalar::SolidWay& way) const {
+    if (!pair.has_kernel) return put_exact(row);
+    const Solid& solid = pair.solid->view();
+    const scalar::SolidContact contact = scalar::contact_along(solid, pair.cylinder_in_solid, way);
+    scalar::Separation s = scalar::separation_of(contact, pair.turn, pair.cylinder, pair.d);
+    scalar::put_in_metres(s, pair.scale);
+    if (s.is_unsure || s.separation == 0) return put_exact(row);
+    if (is_flipped_) s = scalar::flipped(s);
+    store_.put(row, Status::ok,
+               {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(), s.arm_a.y(),
+                s.arm_a.z(), s.arm_b.x(), s.arm_b.y(), s.arm_b.z()});
+    if (!batch_.unsure || contact.separation > 0) return;
+    if (!scalar::has_common_point(solid, pair.cylinder_in_solid, contact)) batch_.unsure[row] = 1;
   }
 
-  void put(size_t row, const scalar::SolidCylinderTest& test) const {
-    const scalar::Separation& s = test.separation;
-    if (batch_.unsure && !test.is_proven) batch_.unsure[row] = 1;
-    if (!s.is_unsure && s.separation != 0) {
-      return store_.put(row, Status::ok,
-                        {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(),
-                         s.arm_a.y(), s.arm_a.z(), s.arm_b.x(), s.arm_b.y(), s.arm_b.z()});
-    }
+  void put_exact(size_t row) const {
     const std::array<float, 11> found = exact_answer(batch_, kind_a_, kind_b_, row);
     std::array<float, 10> answer;
     std::copy_n(found.begin(), answer.size(), answer.begin());

@@ -10,11 +10,6 @@
 
 namespace carom::scalar {
 
-struct SolidCylinderTest {
-  Separation separation = not_in_float<float>();
-  bool is_proven = false;
-};
-
 // Whether a point that lies before no face by more than a little lies near the shape.
 inline bool is_blunt(const BoxShape<float>&) { return true; }
 inline bool is_blunt(const AabbShape<float>&) { return true; }
@@ -44,29 +39,23 @@ inline Rotation<float> turn_of(const Solid& solid, const PairPose<float>& pose) 
   return {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
 }
 
-inline PlacedCylinder placed_cylinder(const Solid& solid, const CylinderShape<float>& cylinder,
+// `turn`: of the solid.
+inline PlacedCylinder placed_cylinder(const Rotation<float>& turn,
+                                      const CylinderShape<float>& cylinder,
                                       const PairPose<float>& pose) {
-  const Rotation<float> turn = turn_of(solid, pose);
   return {rotate_back(turn, pose.d), rotate_back(turn, rotation_of(pose.b).z), cylinder.half_length,
           cylinder.radius};
 }
 
-// `way`: the best out of the solid.
-inline SolidCylinderTest test_solid_cylinder(const Solid& solid, const PlacedCylinder& placed,
-                                             const SolidWay& way,
-                                             const CylinderShape<float>& cylinder,
-                                             const PairPose<float>& pose) {
-  SolidCylinderTest test;
-  const Rotation<float> turn = turn_of(solid, pose);
-  const SolidContact contact = contact_along(solid, placed, way);
-  Separation& s = test.separation;
+inline Separation separation_of(const SolidContact& contact, const Rotation<float>& turn,
+                                const CylinderShape<float>& cylinder, const Vector3f& d) {
+  Separation s;
   s.separation = contact.separation - cylinder.rounding;
   s.normal = unit(rotate(turn, contact.normal));
   s.arm_a = rotate(turn, contact.on_solid);
-  s.arm_b = (s.arm_a + s.normal * s.separation) - pose.d;
+  s.arm_b = (s.arm_a + s.normal * s.separation) - d;
   s.is_unsure = !(contact.is_sure && std::fabs(s.separation) > kSureGap);
-  test.is_proven = contact.is_proven;
-  return test;
+  return s;
 }
 
 template <class S>
@@ -75,9 +64,10 @@ Separation solid_cylinder_separation(const S& shape, const CylinderShape<float>&
   const SolidOf<S> solid_of_shape(shape);
   const Solid& solid = solid_of_shape.view();
   if (!has_kernel(shape, solid)) return not_in_float<float>();
-  const PlacedCylinder placed = placed_cylinder(solid, cylinder, pose);
-  const SolidWay way = find_solid_way(solid, placed);
-  return test_solid_cylinder(solid, placed, way, cylinder, pose).separation;
+  const Rotation<float> turn = turn_of(solid, pose);
+  const PlacedCylinder placed = placed_cylinder(turn, cylinder, pose);
+  const SolidContact contact = contact_along(solid, placed, find_solid_way(solid, placed));
+  return separation_of(contact, turn, cylinder, pose.d);
 }
 
 }  // namespace carom::scalar
