@@ -187,6 +187,8 @@ class RoundedBatch {
         b_.is_special_triangle(pair.b)) {
       return GrownState::left;
     }
+    // The tests of round cores search, and prove nothing.
+    if (batch_.unsure && (is_round(kind_a_) || is_round(kind_b_))) batch_.unsure[row] = 1;
     out.separation[row] = separation;
     out.overlap[row] = separation <= 0;
     std::array<float, 3> arm_a, arm_b;
