@@ -126,7 +126,7 @@ class RoundKernels : public testing::TestWithParam<Kinds> {};
 
 TEST_P(RoundKernels, FindTheBestDirection) {
   const auto [kind_a, kind_b, sizes] = GetParam();
-  constexpr size_t kPairs = 4000;
+  constexpr size_t kPairs = 20'000;
   constexpr double kAsStated = 2e-6;
   RandomPairs pairs(kind_a, kind_b, sizes, 1);
   Tally tally;
@@ -149,13 +149,19 @@ TEST_P(RoundKernels, FindTheBestDirection) {
     ++tally.wrong;
     tally.worst = std::max(tally.worst, -error / pair.scale);
   }
+  // The figures of docs/design/round_shapes.md; --gtest_output=xml writes them.
+  RecordProperty("unsure", static_cast<int>(tally.unsure));
+  RecordProperty("too_deep", static_cast<int>(tally.wrong));
+  RecordProperty("worst_of_a_million", static_cast<int>(tally.worst * 1e6));
   EXPECT_GT(tally.overlapping, kPairs * 2 / 5);
   EXPECT_LT(tally.overlapping, kPairs * 3 / 5);
   // One hull in fifty is sharp, and half of those of mixed sizes are.
   const bool is_often_sharp = kind_a == ShapeKind::hull && sizes == Sizes::mixed;
   EXPECT_LE(tally.unsure, kPairs / (is_often_sharp ? 2 : 25));
-  EXPECT_LE(tally.wrong, kPairs / 1000);
-  EXPECT_LE(tally.worst, 0.05);
+  // Two rims, and two ellipsoids, may keep the second-best of several best directions.
+  const bool may_miss = kind_a == ShapeKind::cylinder || kind_a == ShapeKind::ellipsoid;
+  EXPECT_LE(tally.wrong, may_miss ? kPairs / 5000 : 0);
+  EXPECT_LE(tally.worst, 0.02);
 }
 
 std::string kinds_name(const testing::TestParamInfo<Kinds>& info) {
