@@ -179,7 +179,7 @@ TEST(ScaledShapes, OfCompoundsAreHitByScaledRays) {
       }
     }
   }
-  EXPECT_GT(hits, 2000u);
+  EXPECT_GT(hits, rounds(2000));
 }
 
 }  // namespace
