@@ -76,7 +76,7 @@ size_t expect_same_hits(const Shape& shape, const Vector3f& scale, double size, 
     return 0;
   }
   oracle::Random random(seed);
-  const std::vector<RayOfShape> rays = rays_at(size, rounds(60), random);
+  const std::vector<RayOfShape> rays = rays_at(size, rounds(60, 30), random);
   const FirstHits expected = first_hits(rays, shape);
   const FirstHits found = first_hits(scaled_rays(rays, scale), *result);
   // Rays that graze are left out: their neighbours hit elsewhere.
@@ -134,15 +134,15 @@ size_t expect_same_hits(ShapeKind kind, const std::vector<Vector3f>& scales, uin
 
 TEST(ScaledShapes, AreHitByScaledRays) {
   for (const ShapeKind kind : kAnyScale) {
-    EXPECT_GT(expect_same_hits(kind, kEvenScales, 1), 10u) << name(kind);
-    EXPECT_GT(expect_same_hits(kind, kRoundScales, 2), 10u) << name(kind);
-    EXPECT_GT(expect_same_hits(kind, kUnevenScales, 3), 10u) << name(kind);
+    EXPECT_GT(expect_same_hits(kind, kEvenScales, 1), rounds(10, 3)) << name(kind);
+    EXPECT_GT(expect_same_hits(kind, kRoundScales, 2), rounds(10, 3)) << name(kind);
+    EXPECT_GT(expect_same_hits(kind, kUnevenScales, 3), rounds(10, 3)) << name(kind);
   }
   for (const ShapeKind kind : {ShapeKind::cylinder, ShapeKind::cone}) {
-    EXPECT_GT(expect_same_hits(kind, kEvenScales, 4), 100u);
-    EXPECT_GT(expect_same_hits(kind, kRoundScales, 5), 100u);
+    EXPECT_GT(expect_same_hits(kind, kEvenScales, 4), rounds(100, 30));
+    EXPECT_GT(expect_same_hits(kind, kRoundScales, 5), rounds(100, 30));
   }
-  EXPECT_GT(expect_same_hits(ShapeKind::capsule, kEvenScales, 6), 100u);
+  EXPECT_GT(expect_same_hits(ShapeKind::capsule, kEvenScales, 6), rounds(100, 30));
 }
 
 // Children that are turned: in any way under factors of one magnitude, by quarters otherwise.
