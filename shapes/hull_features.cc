@@ -133,15 +133,15 @@ void HullFeatures::add_edges(const HullGeometry& hull, std::span<const HullEdge>
                       edge.from, edge.left, edge.right});
   }
   const size_t padded = (edges_.size() + 63) / 64 * 64;
-  sides_.assign(2 * padded, 0);
-  for (size_t e = 0; e < edges_.size(); ++e) {
-    sides_[e] = static_cast<uint8_t>(edges_[e].left);
-    sides_[padded + e] = static_cast<uint8_t>(edges_[e].right);
+  ends_.assign(4 * padded, 0);
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const uint32_t numbers[] = {edges[e].left, edges[e].right, edges[e].from, edges[e].to};
+    for (size_t i = 0; i < 4; ++i) ends_[i * padded + e] = static_cast<uint8_t>(numbers[i]);
   }
 }
 
 size_t HullFeatures::bytes() const {
-  return sizeof(*this) + edges_.capacity() * sizeof(Edge) + sides_.capacity() * sizeof(sides_[0]) +
+  return sizeof(*this) + edges_.capacity() * sizeof(Edge) + ends_.capacity() * sizeof(ends_[0]) +
          planes_.capacity() * sizeof(planes_[0]) + columns_.capacity() * sizeof(float);
 }
 

@@ -64,8 +64,10 @@ class HullFeatures {
   std::span<const Edge> edges() const { return edges_; }
   // The left faces (0) or the right faces (1) of all edges, padded to a multiple of 64. Only for
   // hulls of up to 256 faces.
-  const uint8_t* sides(size_t side) const { return sides_.data() + side * side_bytes(); }
-  size_t side_bytes() const { return sides_.size() / 2; }
+  const uint8_t* sides(size_t side) const { return ends_.data() + side * side_bytes(); }
+  // The points where all edges begin (0) or end (1), likewise.
+  const uint8_t* ends(size_t end) const { return sides(2 + end); }
+  size_t side_bytes() const { return ends_.size() / 4; }
 
   size_t bytes() const;
 
@@ -74,7 +76,7 @@ class HullFeatures {
   void add_edges(const HullGeometry& hull, std::span<const HullEdge> edges);
 
   std::vector<Edge> edges_;
-  std::vector<uint8_t> sides_;
+  std::vector<uint8_t> ends_;  // sides and ends of edges, in columns
   std::vector<std::array<float, 4>> planes_;
   std::vector<float> columns_;
   float inner_radius_ = 0;

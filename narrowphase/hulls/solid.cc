@@ -28,6 +28,7 @@ void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& 
   view_.edge_count = features.edges().size();
   view_.edges = features.edges().data();
   view_.side = {features.sides(0), features.sides(1)};
+  view_.end = {features.ends(0), features.ends(1)};
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = features.inner_radius();
 }
@@ -109,10 +110,11 @@ void SmallSolid::put_box(const Vector3f& lower, const Vector3f& upper) {
       const auto face = static_cast<uint8_t>(2 * next + one);
       const auto other_face = static_cast<uint8_t>(2 * last + other);
       const auto from = uint32_t{one} << next | uint32_t{other} << last;
+      const uint32_t to = from | 1u << axis;
       if (one == other) {
-        put_edge(Vector3f::Unit(axis), from, face, other_face);
+        put_edge(Vector3f::Unit(axis), from, to, face, other_face);
       } else {
-        put_edge(Vector3f::Unit(axis), from, other_face, face);
+        put_edge(Vector3f::Unit(axis), from, to, other_face, face);
       }
     }
   }
@@ -134,8 +136,8 @@ void SmallSolid::put_triangle(const std::array<Vector3f, 3>& corners, const Vect
     const auto side = static_cast<uint8_t>(2 + i);
     put_face(outwards,
              std::max(scalar::dot(outwards, corners[from]), scalar::dot(outwards, corners[to])));
-    put_edge(direction, from, 0, side);
-    put_edge(-direction, to, 1, side);
+    put_edge(direction, from, to, 0, side);
+    put_edge(-direction, to, from, 1, side);
   }
   view_.middle = (corners[0] + corners[1] + corners[2]) * (1.0f / 3);
   view_.inner_radius = 0;
@@ -154,7 +156,7 @@ void SmallSolid::put_segment(const Vector3f& from, const Vector3f& to) {
       put_face(normal, std::max(scalar::dot(normal, from), scalar::dot(normal, to)));
     }
     for (uint8_t side = 0; side < 4; ++side) {
-      put_edge(direction, 0, side, static_cast<uint8_t>((side + 1) % 4));
+      put_edge(direction, 0, 1, side, static_cast<uint8_t>((side + 1) % 4));
     }
   }
   view_.middle = (from + to) * 0.5f;
@@ -174,7 +176,10 @@ void SmallSolid::put_face(const Vector3f& normal, float height) {
   plane_records_.push_back({normal.x(), normal.y(), normal.z(), height});
 }
 
-void SmallSolid::put_edge(const Vector3f& direction, uint32_t from, uint8_t left, uint8_t right) {
+void SmallSolid::put_edge(const Vector3f& direction, uint32_t from, uint32_t to, uint8_t left,
+                          uint8_t right) {
+  end_[0][edges_.size()] = static_cast<uint8_t>(from);
+  end_[1][edges_.size()] = static_cast<uint8_t>(to);
   side_[0][edges_.size()] = left;
   side_[1][edges_.size()] = right;
   edges_.push_back({{direction.x(), direction.y(), direction.z(), 0}, from, left, right});
@@ -194,6 +199,7 @@ void SmallSolid::close() {
   view_.edge_count = edges_.size();
   view_.edges = edges_.begin();
   view_.side = {side_[0].data(), side_[1].data()};
+  view_.end = {end_[0].data(), end_[1].data()};
 }
 
 }  // namespace carom

@@ -50,6 +50,7 @@ struct Solid {
   size_t edge_count = 0;
   const Edge* edges;                   // not of k-DOPs
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
+  std::array<const uint8_t*, 2> end;   // first and last point of each edge; not of k-DOPs
   Vector3f middle;                     // inside
   float inner_radius;                  // of a ball around `middle` inside the solid
   float scale = 1;
@@ -64,6 +65,9 @@ struct Solid {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
   }
   PointView points() const { return {point, point_count, padded_count(point_count)}; }
+  PointView normals() const {
+    return {{plane[0], plane[1], plane[2]}, face_count, padded_count(face_count)};
+  }
   Vector3f normal(size_t face) const { return {plane[0][face], plane[1][face], plane[2][face]}; }
   float height(size_t face) const { return plane[3][face] * scale; }
 };
@@ -94,7 +98,7 @@ class SmallSolid {
   void put_segment(const Vector3f& from, const Vector3f& to);
   void put_point(const Vector3f& point);
   void put_face(const Vector3f& normal, float height);
-  void put_edge(const Vector3f& direction, uint32_t from, uint8_t left, uint8_t right);
+  void put_edge(const Vector3f& direction, uint32_t from, uint32_t to, uint8_t left, uint8_t right);
   void close();
 
   Solid view_;
@@ -103,6 +107,7 @@ class SmallSolid {
   FewOf<std::array<float, 4>, kMost> point_records_, plane_records_;
   FewOf<Solid::Edge, 12> edges_;
   std::array<std::array<uint8_t, kMostSides>, 2> side_{};
+  std::array<std::array<uint8_t, kMost>, 2> end_{};
 };
 
 // A hull stores its features; this only views them.

@@ -8,7 +8,9 @@
 // After the loop over targets.
 #include <array>
 
+#include "narrowphase/features/solid_contact-inl.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
+#include "narrowphase/hulls/shell_corners-inl.h"
 #include "narrowphase/hulls/solid_cylinder.h"
 #include "simd/compress-inl.h"
 #include "simd/first_of_most-inl.h"
@@ -19,10 +21,6 @@ namespace {
 
 using scalar::PlacedCylinder;
 using scalar::SolidWay;
-
-HWY_INLINE F3 unit(const F3& v) {
-  return v * hn::Div(splat(1), hn::Sqrt(max(dot(v, v), splat(kLeastWay))));
-}
 
 HWY_INLINE F3 load3(const std::array<const float*, 3>& column, size_t i, F scale) {
   const FloatTag tag;
@@ -97,27 +95,14 @@ void keep_caps(const Solid& solid, const PlacedCylinder& cylinder, SolidWay& bes
   }
 }
 
-HWY_INLINE F3 way_from_corner(const F3& corner, const CylinderOfPair& cylinder) {
-  const F zero = splat(0), one = splat(1);
-  const F3 p = corner - cylinder.middle;
-  const F along = dot(p, cylinder.axis);
-  const F3 across = p - cylinder.axis * along;
-  const F from_axis = hn::Sqrt(dot(across, across));
-  const F above = hn::Sub(hn::Abs(along), cylinder.half_length);
-  const F beside = hn::Sub(from_axis, cylinder.rim);
-  const Mask is_at_rim = hn::Gt(min(above, beside), zero);
-  const F share = hn::IfThenElse(is_at_rim, hn::Div(beside, max(from_axis, splat(kLeastRim))), one);
-  const F rise = hn::IfThenElseZero(is_at_rim, hn::CopySign(above, along));
-  return -unit(across * share + cylinder.axis * rise);
-}
-
 SolidWay best_corner(const Solid& solid, const PlacedCylinder& placed,
                      const CylinderOfPair& cylinder) {
+  const AxialCoreLanes core = {cylinder.axis, cylinder.half_length, cylinder.rim};
   const F scale = splat(solid.scale), count = splat(static_cast<float>(solid.point_count));
   FirstOfMost best = FirstOfMost::none();
   F index = lane_indices();
   for (size_t i = 0; i < solid.point_count; i += kLanes) {
-    const F3 n = way_from_corner(load3(solid.point, i, scale), cylinder);
+    const F3 n = way_from_corner(load3(solid.point, i, scale), cylinder.middle, core);
     F height = splat(-FLT_MAX);
     for (size_t k = 0; k < solid.point_count; ++k) {
       height = max(height, dot(n, in_all_lanes(solid.corner(k))));
@@ -126,7 +111,7 @@ SolidWay best_corner(const Solid& solid, const PlacedCylinder& placed,
     index = hn::Add(index, splat(kLanes));
   }
   const size_t place = best.first();
-  return {best.value(), scalar::way_from_corner(solid.corner(place), placed),
+  return {best.value(), scalar::way_from_corner(solid.corner(place), placed.middle, placed.core()),
           SolidWay::Feature::corner, static_cast<uint32_t>(place)};
 }
 
@@ -146,36 +131,57 @@ struct RecordsOf {
 struct EdgeLanes {
   F3 left, right, d, way;
 
-  // Loads the edges from `first` on. The last lanes may repeat an edge.
+  // Loads the edges from `first` on. The last lanes may hold any edge.
   static HWY_INLINE EdgeLanes load(const Solid& solid, const CylinderOfPair& cylinder,
                                    size_t first) {
-    std::array<size_t, kLanes> edge;
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      edge[lane] = std::min(first + lane, solid.edge_count - 1);
-    }
-    const auto left_face = [&](size_t lane) {
-      return solid.plane_record + solid.side[0][edge[lane]];
-    };
-    const auto right_face = [&](size_t lane) {
-      return solid.plane_record + solid.side[1][edge[lane]];
-    };
-    const auto point = [&](size_t lane) {
-      return solid.point_record + solid.edges[edge[lane]].from;
-    };
     EdgeLanes arc;
-    F3 from;
-    F unused;
-    transpose_records(RecordsOf<decltype(left_face)>{left_face}, arc.left, unused);
-    transpose_records(RecordsOf<decltype(right_face)>{right_face}, arc.right, unused);
-    transpose_records(RecordsOf<decltype(point)>{point}, from, unused);
+    const F3 from = load_ends(solid, first, arc);
     arc.d = unit(cross(arc.left, arc.right));
     arc.way = cylinder.middle - from * splat(solid.scale);
     return arc;
   }
 
+  // Calls use(column, lanes) for all but d.
+  template <class Use>
+  HWY_INLINE void for_each_column(const Use& use) {
+    const auto use3 = [&](size_t column, F3& v) HWY_ATTR {
+      use(column, v.x);
+      use(column + 1, v.y);
+      use(column + 2, v.z);
+    };
+    use3(0, left);
+    use3(3, right);
+    use3(6, way);
+  }
+
   HWY_INLINE Mask holds(const F3& n) const {
     const F zero = splat(0);
     return hn::And(hn::Gt(dot(cross(left, n), d), zero), hn::Gt(dot(cross(n, right), d), zero));
+  }
+
+ private:
+  // Sets the normals and returns the first points. In narrow vectors they come from records.
+  static HWY_INLINE F3 load_ends(const Solid& solid, size_t first, EdgeLanes& arc) {
+    if constexpr (kLanes == WaitingArcs::kPairs) {
+      arc.left = points_at(solid.normals(), solid.side[0] + first);
+      arc.right = points_at(solid.normals(), solid.side[1] + first);
+      return points_at(solid.points(), solid.end[0] + first);
+    } else {
+      std::array<size_t, kLanes> edge;
+      for (size_t lane = 0; lane < kLanes; ++lane) {
+        edge[lane] = std::min(first + lane, solid.edge_count - 1);
+      }
+      const auto read = [&](const auto* records, const uint8_t* numbers, F3& v) HWY_ATTR {
+        const auto record = [&](size_t lane) { return records + numbers[edge[lane]]; };
+        F unused;
+        transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
+      };
+      F3 from;
+      read(solid.plane_record, solid.side[0], arc.left);
+      read(solid.plane_record, solid.side[1], arc.right);
+      read(solid.point_record, solid.end[0], from);
+      return from;
+    }
   }
 };
 
@@ -237,31 +243,28 @@ struct StartLanes {
   }
 };
 
-// The results of the searches of a vector of edges: across, then on the side of either cap.
+// The best way of each of a vector of edges.
 struct FoundOnEdges {
-  HWY_ALIGN float gap[3][kLanes];
-  HWY_ALIGN float n[3][3][kLanes];
-  HWY_ALIGN float has_ended[3][kLanes];
+  F gap;
+  F3 n;
+  Mask is_crossing, has_ended;
 
-  HWY_INLINE void put(size_t which, F wide, const F3& way, Mask ended) {
-    const FloatTag tag;
-    hn::Store(wide, tag, gap[which]);
-    hn::Store(way.x, tag, n[which][0]);
-    hn::Store(way.y, tag, n[which][1]);
-    hn::Store(way.z, tag, n[which][2]);
-    hn::Store(hn::IfThenElseZero(ended, splat(1)), tag, has_ended[which]);
+  HWY_INLINE void keep_if_wider(F wide, const F3& way, Mask ended) {
+    const Mask wider = hn::Gt(rank(wide, ended), rank(gap, has_ended));
+    gap = hn::IfThenElse(wider, wide, gap);
+    n = select(wider, way, n);
+    is_crossing = hn::AndNot(wider, is_crossing);
+    has_ended = hn::Or(hn::And(wider, ended), hn::AndNot(wider, has_ended));
   }
-  HWY_INLINE SolidWay way(size_t which, size_t lane, uint32_t e) const {
-    return {gap[which][lane],
-            {n[which][0][lane], n[which][1][lane], n[which][2][lane]},
-            which == 0 ? SolidWay::Feature::crossing : SolidWay::Feature::edge,
-            e,
-            has_ended[which][lane] != 0};
+
+ private:
+  static HWY_INLINE F rank(F gap, Mask has_ended) {
+    return hn::Sub(gap, hn::IfThenZeroElse(has_ended, splat(kNotEnded)));
   }
 };
 
 HWY_INLINE void search_side(const EdgeLanes& arc, const F3& middle, const CylinderOfPair& cylinder,
-                            float sign, size_t which, FoundOnEdges& found) {
+                            float sign, FoundOnEdges& found) {
   const Mask all = hn::Not(no_lanes());
   StartLanes start{arc, cylinder, splat(sign)};
   const F3 axis = cylinder.axis;
@@ -283,83 +286,103 @@ HWY_INLINE void search_side(const EdgeLanes& arc, const F3& middle, const Cylind
   for (size_t i = 0; i < kSolidArcSteps; ++i) has_ended = step_on_arc(arc, way, cylinder, n);
   const F gap = hn::IfThenElse(hn::Gt(start.gap, splat(-FLT_MAX)),
                                cylinder.gap_over_line(n, arc.way), splat(-FLT_MAX));
-  found.put(which, gap, n, has_ended);
+  found.keep_if_wider(gap, n, has_ended);
 }
 
-HWY_INLINE void search_across(const EdgeLanes& arc, const CylinderOfPair& cylinder,
-                              FoundOnEdges& found) {
+HWY_INLINE FoundOnEdges search_across(const EdgeLanes& arc, const CylinderOfPair& cylinder) {
   const F3 n = unit(cross(arc.d, cylinder.axis));
   const F3 out = select(hn::Lt(dot(cross(arc.left, n), arc.d), splat(0)), -n, n);
-  const F gap =
-      hn::IfThenElse(arc.holds(out), cylinder.gap_over_line(out, arc.way), splat(-FLT_MAX));
-  found.put(0, gap, out, hn::Not(no_lanes()));
+  const Mask is_there = arc.holds(out);
+  const F gap = hn::IfThenElse(is_there, cylinder.gap_over_line(out, arc.way), splat(-FLT_MAX));
+  return {gap, out, is_there, hn::Not(no_lanes())};
 }
 
-// Calls use(column, lanes) for every column of waiting edges.
-template <class Use>
-HWY_INLINE void for_each_column(EdgeLanes& arc, CylinderOfPair& cylinder, const Use& use) {
-  const auto use3 = [&](size_t column, F3& v) HWY_ATTR {
-    use(column, v.x);
-    use(column + 1, v.y);
-    use(column + 2, v.z);
+// The cylinders of the pairs with these numbers.
+HWY_INLINE CylinderOfPair cylinders_at(const WaitingArcs& waiting, const uint8_t* pairs) {
+  const FloatTag tag;
+  const IntTag integers;
+  const I pair = hn::PromoteTo(integers, hn::LoadU(hn::Rebind<uint8_t, IntTag>(), pairs));
+  const auto place =
+      hn::IndicesFromVec(tag, hn::And(pair, hn::Set(integers, static_cast<int32_t>(kLanes) - 1)));
+  const auto column = [&](size_t i) HWY_ATTR {
+    return hn::TableLookupLanes(hn::LoadU(tag, waiting.cylinder[i].data()), place);
   };
-  use3(0, arc.left);
-  use3(3, arc.right);
-  use3(6, arc.way);
-  use3(9, cylinder.axis);
-  use3(12, cylinder.middle);
-  use(15, cylinder.half_length);
-  use(16, cylinder.rim);
+  CylinderOfPair cylinder;
+  cylinder.axis = {column(0), column(1), column(2)};
+  cylinder.middle = {column(3), column(4), column(5)};
+  cylinder.half_length = column(6);
+  cylinder.rim = column(7);
+  return cylinder;
+}
+
+void keep_found(const FoundOnEdges& found, const WaitingArcs& waiting, size_t first,
+                SolidWay* ways) {
+  const FloatTag tag;
+  HWY_ALIGN float number[6][kLanes];
+  hn::Store(found.gap, tag, number[0]);
+  hn::Store(found.n.x, tag, number[1]);
+  hn::Store(found.n.y, tag, number[2]);
+  hn::Store(found.n.z, tag, number[3]);
+  hn::Store(hn::IfThenElseZero(found.is_crossing, splat(1)), tag, number[4]);
+  hn::Store(hn::IfThenElseZero(found.has_ended, splat(1)), tag, number[5]);
+  for (size_t lane = 0; lane < std::min(kLanes, waiting.count - first); ++lane) {
+    ways[waiting.pair[first + lane]].keep_if_wider(
+        {number[0][lane],
+         {number[1][lane], number[2][lane], number[3][lane]},
+         number[4][lane] != 0 ? SolidWay::Feature::crossing : SolidWay::Feature::edge,
+         waiting.edge[first + lane],
+         number[5][lane] != 0});
+  }
 }
 
 void finish(SolidWay* ways, WaitingArcs& waiting) {
   const IndexTag bits;
   for (size_t first = 0; first < waiting.count; first += kLanes) {
     EdgeLanes arc;
-    CylinderOfPair cylinder;
-    for_each_column(arc, cylinder, [&](size_t column, F& v) HWY_ATTR {
-      v = hn::BitCast(FloatTag(), hn::LoadU(bits, waiting.column[column].data() + first));
+    arc.for_each_column([&](size_t column, F& v) HWY_ATTR {
+      v = hn::BitCast(FloatTag(), hn::LoadU(bits, waiting.arc[column].data() + first));
     });
     arc.d = unit(cross(arc.left, arc.right));
+    const CylinderOfPair cylinder = cylinders_at(waiting, waiting.pair.data() + first);
     const F3 middle = unit(arc.left + arc.right);
-    FoundOnEdges found;
-    search_across(arc, cylinder, found);
-    search_side(arc, middle, cylinder, 1, 1, found);
-    search_side(arc, middle, cylinder, -1, 2, found);
-    for (size_t lane = 0; lane < std::min(kLanes, waiting.count - first); ++lane) {
-      SolidWay& best = ways[waiting.pair[first + lane]];
-      for (size_t which = 0; which < 3; ++which) {
-        best.keep_if_wider(found.way(which, lane, waiting.edge[first + lane]));
-      }
-    }
+    FoundOnEdges found = search_across(arc, cylinder);
+    search_side(arc, middle, cylinder, 1, found);
+    search_side(arc, middle, cylinder, -1, found);
+    keep_found(found, waiting, first, ways);
   }
   waiting.count = 0;
 }
 
 // Appends the edges on whose arcs the gap may exceed that of the pair's way so far, in order.
-void leave_edges(const Solid& solid, CylinderOfPair cylinder, uint8_t pair, SolidWay* ways,
+void leave_edges(const Solid& solid, const CylinderOfPair& cylinder, uint8_t pair, SolidWay* ways,
                  WaitingArcs& waiting) {
+  const FloatTag tag;
   const IndexTag bits;
+  constexpr size_t kRoom = Solid::kMostEdges + kLanes;
+  HWY_ALIGN float bounds[kRoom];
+  HWY_ALIGN float arcs[9][kRoom];
   F most = splat(ways[pair].gap);
-  HWY_ALIGN float bounds[Solid::kMostEdges + kLanes];
   for (size_t first = 0; first < solid.edge_count; first += kLanes) {
-    F gap;
-    const F bound = bound_on_arcs(EdgeLanes::load(solid, cylinder, first), cylinder, gap);
-    most = max(most, hn::Sub(gap, splat(kNotEnded)));
-    hn::StoreU(bound, FloatTag(), bounds + first);
-  }
-  most = hn::MaxOfLanes(FloatTag(), most);
-  for (size_t first = 0; first < solid.edge_count; first += kLanes) {
-    const F bound = hn::LoadU(FloatTag(), bounds + first);
-    const Mask exists = hn::FirstN(FloatTag(), solid.edge_count - first);
-    const Mask is_open = hn::And(exists, hn::Gt(bound, most));
-    if (hn::AllFalse(FloatTag(), is_open)) continue;
-    if (waiting.count + kLanes > WaitingArcs::kMost) finish(ways, waiting);
     EdgeLanes arc = EdgeLanes::load(solid, cylinder, first);
+    F gap;
+    const F bound = bound_on_arcs(arc, cylinder, gap);
+    const Mask exists = hn::FirstN(tag, solid.edge_count - first);
+    most = hn::IfThenElse(exists, max(most, hn::Sub(gap, splat(kNotEnded))), most);
+    hn::Store(bound, tag, bounds + first);
+    arc.for_each_column([&](size_t column, F& v)
+                            HWY_ATTR { hn::Store(v, tag, arcs[column] + first); });
+  }
+  most = hn::MaxOfLanes(tag, most);
+  for (size_t first = 0; first < solid.edge_count; first += kLanes) {
+    const Mask exists = hn::FirstN(tag, solid.edge_count - first);
+    const Mask is_open = hn::And(exists, hn::Gt(hn::Load(tag, bounds + first), most));
+    if (hn::AllFalse(tag, is_open)) continue;
+    if (waiting.count + kLanes > WaitingArcs::kMost) finish(ways, waiting);
     const size_t at = waiting.count;
-    for_each_column(arc, cylinder, [&](size_t column, F& v) HWY_ATTR {
-      compress_store(hn::BitCast(bits, v), is_open, waiting.column[column].data() + at);
-    });
+    for (size_t column = 0; column < 9; ++column) {
+      const Indices v = hn::BitCast(bits, hn::Load(tag, arcs[column] + first));
+      compress_store(v, is_open, waiting.arc[column].data() + at);
+    }
     const Indices edges = hn::Iota(bits, static_cast<uint32_t>(first));
     waiting.count += compress_store(edges, is_open, waiting.edge.data() + at);
     std::fill(waiting.pair.data() + at, waiting.pair.data() + waiting.count, pair);
@@ -374,11 +397,49 @@ void begin(const Solid& solid, const PlacedCylinder& placed, uint8_t pair, Solid
   keep_caps(solid, placed, best);
   best.keep_if_wider(best_corner(solid, placed, cylinder));
   ways[pair] = best;
+  const float numbers[] = {placed.axis.x(),    placed.axis.y(),   placed.axis.z(),
+                           placed.middle.x(),  placed.middle.y(), placed.middle.z(),
+                           placed.half_length, placed.rim};
+  for (size_t i = 0; i < 8; ++i) waiting.cylinder[i][pair] = numbers[i];
   leave_edges(solid, cylinder, pair, ways, waiting);
 }
 
+bool is_within(const Solid& solid, const Vector3f& p, float most) {
+  const FloatTag tag;
+  const F3 place = in_all_lanes(p);
+  const F scale = splat(solid.scale);
+  Mask within = hn::Not(no_lanes());
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const F3 n = load3({solid.plane[0], solid.plane[1], solid.plane[2]}, i, splat(1));
+    const F height = hn::Mul(hn::LoadU(tag, solid.plane[3] + i), scale);
+    within = hn::And(within, hn::Le(hn::Sub(dot(n, place), height), splat(most)));
+  }
+  return hn::AllTrue(tag, within);
+}
+
+Vector3f furthest_corner(const Solid& solid, const Vector3f& n) {
+  const F count = splat(static_cast<float>(solid.point_count)), scale = splat(solid.scale);
+  const F3 way = in_all_lanes(n);
+  FirstOfMost best = FirstOfMost::none();
+  F index = lane_indices();
+  for (size_t i = 0; i < solid.point_count; i += kLanes) {
+    best.keep(hn::Lt(index, count), dot(way, load3(solid.point, i, scale)), index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return solid.corner(best.first());
+}
+
+scalar::SolidContact contact(const Solid& solid, const PlacedCylinder& cylinder,
+                             const SolidWay& way, bool is_blunt) {
+  float along, against;
+  reach_along(solid, way.n, along, against);
+  const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
+  const auto furthest = [&] { return furthest_corner(solid, way.n); };
+  return scalar::contact_at(solid, cylinder, way, along, is_blunt, furthest, is_in_solid);
+}
+
 const SolidWaySteps& solid_way_steps() {
-  static constexpr SolidWaySteps kSteps = {&begin, &finish};
+  static constexpr SolidWaySteps kSteps = {&begin, &finish, &contact};
   return kSteps;
 }
 

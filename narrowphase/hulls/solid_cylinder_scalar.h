@@ -6,8 +6,7 @@
 // - a corner, and a side or a rim: away from the axis, or from the nearest point of the rim;
 // - an edge and a side: across both;
 // - an edge and a rim: the best direction of the arc between the normals of the edge's two faces,
-// by
-//   Newton's method.
+//   by Newton's method.
 // On the arc of an edge the gap is that of the edge's line: no other point of the solid reaches
 // further. It is concave in any multiple of the direction, so a slope at the middle bounds it on
 // the whole arc (R. T. Rockafellar, Convex Analysis, 1970, section 23), and most edges need no
@@ -19,7 +18,7 @@
 
 #include "base/few_of.h"
 #include "base/tolerances.h"
-#include "narrowphase/features/cylinders_scalar.h"
+#include "narrowphase/features/solid_contact_scalar.h"
 #include "narrowphase/hulls/solid.h"
 #include "narrowphase/scalar/vector.h"
 
@@ -30,6 +29,7 @@ struct PlacedCylinder {
   Vector3f middle, axis;
   float half_length, rim;
 
+  AxialCore core() const { return {axis, half_length, rim}; }
   float gap_over(const Vector3f& n, float height) const {
     const Vector3f across = cross(n, axis);
     const float reach =
@@ -53,22 +53,6 @@ struct SolidWay {
   }
   float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
 };
-
-inline Vector3f unit(const Vector3f& v) { return v * (1 / std::sqrt(max(dot(v, v), kLeastWay))); }
-
-// From a corner towards the cylinder.
-inline Vector3f way_from_corner(const Vector3f& corner, const PlacedCylinder& cylinder) {
-  const Vector3f p = corner - cylinder.middle;
-  const float along = dot(p, cylinder.axis);
-  const Vector3f across = p - cylinder.axis * along;
-  const float from_axis = std::sqrt(dot(across, across));
-  const float above = std::fabs(along) - cylinder.half_length;
-  const float beside = from_axis - cylinder.rim;
-  const bool is_at_rim = min(above, beside) > 0;
-  const float share = is_at_rim ? beside / max(from_axis, kLeastRim) : 1.0f;
-  const float rise = is_at_rim ? std::copysign(above, along) : 0.0f;
-  return -unit(across * share + cylinder.axis * rise);
-}
 
 // An edge, by the normals of its faces; `d` is across both, `way` leads from its line to the middle
 // of the cylinder.
@@ -201,7 +185,7 @@ inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinde
     best.keep_if_wider({gap, n, Feature::cap, 0});
   }
   for (uint32_t i = 0; i < solid.point_count; ++i) {
-    const Vector3f n = way_from_corner(solid.corner(i), cylinder);
+    const Vector3f n = way_from_corner(solid.corner(i), cylinder.middle, cylinder.core());
     best.keep_if_wider({cylinder.gap_over(n, height_along(solid, n)), n, Feature::corner, i});
   }
   // The widest gap that is known.
@@ -219,14 +203,6 @@ inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinde
   }
   return best;
 }
-
-// In the frame of the solid.
-struct SolidContact {
-  float separation;
-  Vector3f normal;  // out of the solid
-  Vector3f on_solid;
-  bool is_sure;
-};
 
 // Where the height over no face exceeds `most`.
 inline bool is_within(const Solid& solid, const Vector3f& p, float most) {
@@ -257,32 +233,64 @@ inline Vector3f crossing_on_edge(const Solid& solid, const PlacedCylinder& cylin
   return solid.corner(solid.edges[way.place].from) + arc.d * share;
 }
 
-// The gap is measured again by all corners, so that it parts the shapes whatever the search has
-// found. A contact is sure if its points lie on both shapes: then no other direction has a wider
-// gap, if they are apart.
-inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cylinder,
-                                  const SolidWay& way) {
+inline bool is_on_edge(const Solid& solid, size_t e, const Vector3f& p) {
+  const Vector3f from = solid.corner(solid.end[0][e]);
+  const Vector3f along = solid.corner(solid.end[1][e]) - from, way = p - from;
+  const float share = clamp(dot(way, along) / dot(along, along), 0.0f, 1.0f);
+  const Vector3f off = way - along * share;
+  return dot(off, off) <= kBesideSolid * kBesideSolid;
+}
+
+// The contact along a way. The gap is measured again by all corners, so that it parts the shapes
+// whatever the search has found. A contact is sure if its points lie on both shapes: then no other
+// direction has a wider gap, if they are apart. Where a face and a cap lie on each other, the point
+// of the one shape may lie beside the other, and the point of the other does not.
+//   height              how far the solid reaches along way.n
+//   is_blunt            as is_blunt(); of others a point must lie clearly within, seen from the
+//   face furthest()          the corner at that height is_within(p, most)  as is_within() above
+template <class Furthest, class IsWithin>
+SolidContact contact_at(const Solid& solid, const PlacedCylinder& cylinder, const SolidWay& way,
+                        float height, bool is_blunt, const Furthest& furthest,
+                        const IsWithin& is_within) {
   using Feature = SolidWay::Feature;
-  const AxialCore core{cylinder.axis, cylinder.half_length, cylinder.rim};
-  const float gap = cylinder.gap_over(way.n, height_along(solid, way.n));
+  const AxialCore core = cylinder.core();
+  const float gap = cylinder.gap_over(way.n, height);
   const Vector3f to_cylinder = way.n * gap;
-  Vector3f on_solid = (cylinder.middle - furthest_point(core, way.n)) - to_cylinder;
+  const auto is_on_cylinder = [&](const Vector3f& on_solid) {
+    return holds(core, (on_solid + to_cylinder) - cylinder.middle, kBesideSolid);
+  };
+  const Vector3f of_cylinder = (cylinder.middle - furthest_point(core, way.n)) - to_cylinder;
+  Vector3f on_solid = of_cylinder;
+  bool is_on_solid = true;
   if (way.feature == Feature::corner) on_solid = solid.corner(way.place);
-  if (way.feature == Feature::cap) on_solid = furthest_corner(solid, way.n);
+  if (way.feature == Feature::cap) on_solid = furthest();
   if (way.feature == Feature::crossing) on_solid = crossing_on_edge(solid, cylinder, way);
-  const Vector3f on_cylinder = (on_solid + to_cylinder) - cylinder.middle;
-  const bool is_sure = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid &&
-                       is_within(solid, on_solid, kBesideSolid) &&
-                       holds(core, on_cylinder, kBesideSolid);
-  return {gap, way.n, on_solid, is_sure};
+  if (way.feature == Feature::crossing || way.feature == Feature::edge) {
+    is_on_solid = is_on_edge(solid, way.place, on_solid);
+  }
+  if (way.feature == Feature::face || !is_on_solid || !is_on_cylinder(on_solid)) {
+    on_solid = of_cylinder;
+    const Vector3f inside = on_solid - way.n * (2 * kBesideSolid);
+    is_on_solid = is_blunt ? is_within(on_solid, kBesideSolid) : is_within(inside, -kBesideSolid);
+  }
+  const bool is_same = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid;
+  return {gap, way.n, on_solid, is_same && is_on_solid && is_on_cylinder(on_solid)};
+}
+
+inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cylinder,
+                                  const SolidWay& way, bool is_blunt) {
+  const auto furthest = [&] { return furthest_corner(solid, way.n); };
+  const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
+  return contact_at(solid, cylinder, way, height_along(solid, way.n), is_blunt, furthest,
+                    is_in_solid);
 }
 
 // Whether the point between those of the contact lies in both by more than rounding.
 inline bool has_common_point(const Solid& solid, const PlacedCylinder& cylinder,
                              const SolidContact& contact) {
-  const AxialCore core{cylinder.axis, cylinder.half_length, cylinder.rim};
   const Vector3f common = contact.on_solid + contact.normal * (contact.separation * 0.5f);
-  return is_within(solid, common, -kSureGap) && holds(core, common - cylinder.middle, -kSureGap);
+  return is_within(solid, common, -kSureGap) &&
+         holds(cylinder.core(), common - cylinder.middle, -kSureGap);
 }
 
 }  // namespace carom::scalar

@@ -1,4 +1,4 @@
-// Shapes with faces (A) against cylinder (B): the widest gap along the directions in which two
+// Hulls and triangles (A) against cylinder (B): the widest gap along the directions in which two
 // features face each other.
 //
 // Source: see narrowphase/hulls/solid_cylinder_scalar.h.
@@ -10,9 +10,7 @@
 
 namespace carom::scalar {
 
-// Whether a point that lies before no face by more than a little lies near the shape.
-inline bool is_blunt(const BoxShape<float>&) { return true; }
-inline bool is_blunt(const AabbShape<float>&) { return true; }
+// Whether a point that lies in front of no face by more than a little lies near the shape.
 inline bool is_blunt(const HullShape<float>& hull) {
   const HullGeometry::Balls& balls = hull.geometry->balls();
   return balls.inner >= kBlunt * balls.outer[3];
@@ -28,46 +26,22 @@ inline bool is_blunt(const TriangleShape<float>& triangle) {
   return true;
 }
 
-// Others are left to double precision, and so are k-DOPs, whose edges are not stored.
-template <class S>
-bool has_kernel(const S& shape, const Solid& solid) {
-  return solid.is_known() && !solid.dop && is_blunt(shape);
-}
-
-inline Rotation<float> turn_of(const Solid& solid, const PairPose<float>& pose) {
-  if (solid.is_turned) return rotation_of(pose.a);
-  return {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-}
-
-// `turn`: of the solid.
-inline PlacedCylinder placed_cylinder(const Rotation<float>& turn,
-                                      const CylinderShape<float>& cylinder,
-                                      const PairPose<float>& pose) {
-  return {rotate_back(turn, pose.d), rotate_back(turn, rotation_of(pose.b).z), cylinder.half_length,
-          cylinder.radius};
-}
-
-inline Separation separation_of(const SolidContact& contact, const Rotation<float>& turn,
-                                const CylinderShape<float>& cylinder, const Vector3f& d) {
-  Separation s;
-  s.separation = contact.separation - cylinder.rounding;
-  s.normal = unit(rotate(turn, contact.normal));
-  s.arm_a = rotate(turn, contact.on_solid);
-  s.arm_b = (s.arm_a + s.normal * s.separation) - d;
-  s.is_unsure = !(contact.is_sure && std::fabs(s.separation) > kSureGap);
-  return s;
-}
+// k-DOPs are left to double precision: their edges are not stored.
+inline bool has_kernel(const Solid& solid) { return solid.is_known() && !solid.dop; }
 
 template <class S>
 Separation solid_cylinder_separation(const S& shape, const CylinderShape<float>& cylinder,
                                      const PairPose<float>& pose) {
   const SolidOf<S> solid_of_shape(shape);
   const Solid& solid = solid_of_shape.view();
-  if (!has_kernel(shape, solid)) return not_in_float<float>();
-  const Rotation<float> turn = turn_of(solid, pose);
-  const PlacedCylinder placed = placed_cylinder(turn, cylinder, pose);
-  const SolidContact contact = contact_along(solid, placed, find_solid_way(solid, placed));
-  return separation_of(contact, turn, cylinder, pose.d);
+  if (!has_kernel(solid)) return not_in_float<float>();
+  const Rotation<float> turn = rotation_of(pose.a);
+  const PlacedCylinder placed = {rotate_back(turn, pose.d),
+                                 rotate_back(turn, rotation_of(pose.b).z), cylinder.half_length,
+                                 cylinder.radius};
+  const SolidContact contact =
+      contact_along(solid, placed, find_solid_way(solid, placed), is_blunt(shape));
+  return separation_of(contact, turn, {0, 0, 0}, cylinder.rounding, pose.d);
 }
 
 }  // namespace carom::scalar
