@@ -68,7 +68,7 @@ inline constexpr float kBesideCore = 0x1p-18f;
 // A point of a contact may lie in front of a solid's face by this. At a sharp corner that may be
 // far from the solid: a hull is blunt enough if a ball of this share of its size lies inside, and a
 // triangle if the sine at each of its corners is as great.
-inline constexpr float kBesideSolid = 0x1p-20f;
+inline constexpr float kBesideSolid = 0x1p-19f;
 inline constexpr float kBlunt = 0x1p-3f;
 
 // Searches on arcs: samples of a quarter, their cosines, the steps of Newton's method, the longest

@@ -7,7 +7,11 @@
 #define CAROM_NARROWPHASE_FEATURES_BOX_CYLINDER_INL_H_
 #endif
 
+#include <array>
+
 #include "base/tolerances.h"
+#include "narrowphase/features/box_cylinder_scalar.h"
+#include "narrowphase/features/edge_arc-inl.h"
 #include "narrowphase/features/solid_contact-inl.h"
 #include "simd/rotation-inl.h"
 
@@ -79,137 +83,40 @@ struct BoxWayLanes {
   }
 };
 
-class BoxEdgeLanes {
- public:
-  static constexpr size_t kCount = 12;
+struct BoxEdgeLanes {
+  F u_sign, v_sign;
+  EdgeArcLanes arc;
 
   // The same edge in all lanes.
-  HWY_INLINE BoxEdgeLanes(const CylinderAtBoxLanes& cylinder, size_t e)
-      : BoxEdgeLanes(cylinder, cycled(cylinder.middle, e / 4), cycled(cylinder.half, e / 4),
-                     cycled(cylinder.core.axis, e / 4), splat(e & 1 ? -1.0f : 1.0f),
-                     splat(e & 2 ? -1.0f : 1.0f)) {}
-  // One edge a lane. The frame begins at the x axis unless it does at another; signs of normals.
-  HWY_INLINE BoxEdgeLanes(const CylinderAtBoxLanes& cylinder, Mask from_y, Mask from_z, F sign_u,
-                          F sign_v)
-      : BoxEdgeLanes(cylinder, cycled(cylinder.middle, from_y, from_z),
-                     cycled(cylinder.half, from_y, from_z),
-                     cycled(cylinder.core.axis, from_y, from_z), sign_u, sign_v) {}
-
-  struct Place {
-    F u, v;
-  };
-
-  HWY_INLINE F along_axis(const Place& n) const {
-    return hn::Add(hn::Mul(n.u, u_axis), hn::Mul(n.v, v_axis));
+  static HWY_INLINE BoxEdgeLanes at(const CylinderAtBoxLanes& cylinder, size_t e) {
+    const size_t first = e / 4;
+    return of(cylinder, cycled(cylinder.middle, first), cycled(cylinder.half, first),
+              cycled(cylinder.core.axis, first), splat(e & 1 ? -1.0f : 1.0f),
+              splat(e & 2 ? -1.0f : 1.0f));
   }
-  HWY_INLINE F aside(const Place& n) const {
-    return hn::Sub(hn::Mul(n.u, v_axis), hn::Mul(n.v, u_axis));
-  }
-  HWY_INLINE F off_axis(const Place& n) const { return hypot_of(along, aside(n)); }
-  HWY_INLINE F gap(const Place& n) const {
-    const F height = hn::Add(hn::Mul(n.u, u_way), hn::Mul(n.v, v_way));
-    const F reach =
-        hn::Add(hn::Mul(half_length, hn::Abs(along_axis(n))), hn::Mul(rim, off_axis(n)));
-    return hn::Sub(height, reach);
-  }
-
-  F u_sign, v_sign, u_way, v_way, along, u_axis, v_axis, half_length, rim;
-
- private:
-  HWY_INLINE BoxEdgeLanes(const CylinderAtBoxLanes& cylinder, const F3& middle, const F3& half,
-                          const F3& axis, F sign_u, F sign_v)
-      : u_sign(sign_u),
-        v_sign(sign_v),
-        u_way(hn::Sub(hn::Mul(middle.y, sign_u), half.y)),
-        v_way(hn::Sub(hn::Mul(middle.z, sign_v), half.z)),
-        along(axis.x),
-        u_axis(hn::Mul(axis.y, sign_u)),
-        v_axis(hn::Mul(axis.z, sign_v)),
-        half_length(cylinder.core.half_length),
-        rim(cylinder.core.rim) {}
-};
-
-// Returns the bound.
-HWY_INLINE F bound_on_quarter(const BoxEdgeLanes& edge, F& gap) {
-  const F diagonal = splat(kArcCosines[kArcSamples / 2]);
-  const BoxEdgeLanes::Place n = {diagonal, diagonal};
-  const F x = edge.along_axis(n);
-  const F bend = hn::Div(edge.rim, max(edge.off_axis(n), splat(kLeastRim)));
-  const F reach = hn::CopySign(edge.half_length, x);
-  const F u = hn::Sub(hn::Sub(edge.u_way, hn::Mul(reach, edge.u_axis)),
-                      hn::Mul(hn::Sub(n.u, hn::Mul(x, edge.u_axis)), bend));
-  const F v = hn::Sub(hn::Sub(edge.v_way, hn::Mul(reach, edge.v_axis)),
-                      hn::Mul(hn::Sub(n.v, hn::Mul(x, edge.v_axis)), bend));
-  gap = hn::Add(hn::Mul(u, n.u), hn::Mul(v, n.v));
-  return hn::IfThenElse(hn::Gt(min(u, v), splat(0)), hypot_of(u, v), max(u, v));
-}
-
-struct QuarterStartLanes {
-  F gap;
-  BoxEdgeLanes::Place n;
-
-  static HWY_INLINE QuarterStartLanes none() { return {splat(-FLT_MAX), {splat(1), splat(0)}}; }
-  HWY_INLINE void keep_if_wider(Mask may, F wide, const BoxEdgeLanes::Place& next) {
-    const Mask wider = hn::And(may, hn::Gt(wide, gap));
-    gap = hn::IfThenElse(wider, wide, gap);
-    n.u = hn::IfThenElse(wider, next.u, n.u);
-    n.v = hn::IfThenElse(wider, next.v, n.v);
-  }
-};
-
-struct QuarterStartsLanes {
-  QuarterStartLanes front, back;
-
-  explicit HWY_INLINE QuarterStartsLanes(const BoxEdgeLanes& edge)
-      : front(QuarterStartLanes::none()), back(QuarterStartLanes::none()) {
-    const Mask all = hn::Not(no_lanes());
-    for (size_t i = 1; i + 1 < kArcSamples; ++i) {
-      try_place(edge, {splat(kArcCosines[i]), splat(kArcCosines[kArcSamples - 1 - i])}, all, all);
-    }
-    const Mask is_inside = hn::Gt(hn::Mul(edge.u_axis, edge.v_axis), splat(0));
-    const F over = hn::Div(splat(1), hypot_of(edge.u_axis, edge.v_axis));
-    try_place(edge, {hn::Mul(hn::Abs(edge.u_axis), over), hn::Mul(hn::Abs(edge.v_axis), over)},
-              is_inside, is_inside);
-    const F none = splat(-FLT_MAX), zero = splat(0), one = splat(1);
-    const Mask has_no_front = hn::Eq(front.gap, none), has_no_back = hn::Eq(back.gap, none);
-    try_place(edge, {one, zero}, has_no_front, has_no_back);
-    try_place(edge, {zero, one}, has_no_front, has_no_back);
+  // One edge a lane: along x unless it is along another axis, between faces of these signs.
+  static HWY_INLINE BoxEdgeLanes at(const CylinderAtBoxLanes& cylinder, Mask along_y, Mask along_z,
+                                    F u_sign, F v_sign) {
+    return of(cylinder, cycled(cylinder.middle, along_y, along_z),
+              cycled(cylinder.half, along_y, along_z), cycled(cylinder.core.axis, along_y, along_z),
+              u_sign, v_sign);
   }
 
  private:
-  HWY_INLINE void try_place(const BoxEdgeLanes& edge, const BoxEdgeLanes::Place& n, Mask may_front,
-                            Mask may_back) {
-    const F x = edge.along_axis(n), wide = edge.gap(n);
-    front.keep_if_wider(hn::And(may_front, hn::Ge(x, splat(0))), wide, n);
-    back.keep_if_wider(hn::And(may_back, hn::Le(x, splat(0))), wide, n);
+  static HWY_INLINE BoxEdgeLanes of(const CylinderAtBoxLanes& cylinder, const F3& middle,
+                                    const F3& half, const F3& axis, F u_sign, F v_sign) {
+    return {u_sign,
+            v_sign,
+            {hn::Sub(hn::Mul(middle.y, u_sign), half.y),
+             hn::Sub(hn::Mul(middle.z, v_sign), half.z),
+             axis.x,
+             hn::Mul(axis.y, u_sign),
+             hn::Mul(axis.z, v_sign),
+             cylinder.core.half_length,
+             cylinder.core.rim,
+             {splat(0), splat(1)}}};
   }
 };
-
-HWY_INLINE Mask step_on_quarter(const BoxEdgeLanes& edge, float sign, BoxEdgeLanes::Place& n) {
-  const F zero = splat(0);
-  const F reach = hn::Mul(splat(sign), edge.half_length);
-  const F u_way = hn::Sub(edge.u_way, hn::Mul(reach, edge.u_axis));
-  const F v_way = hn::Sub(edge.v_way, hn::Mul(reach, edge.v_axis));
-  const F x = edge.along_axis(n), y = edge.aside(n);
-  const F off = max(edge.off_axis(n), splat(kLeastRim));
-  const F over = hn::Div(splat(1), off);
-  const F bend = hn::Mul(edge.rim, over), tilt = hn::Mul(hn::Mul(x, y), over);
-  const F slope =
-      hn::Add(hn::Sub(hn::Mul(n.u, v_way), hn::Mul(n.v, u_way)), hn::Mul(edge.rim, tilt));
-  const F turned = hn::Add(hn::Sub(hn::Mul(y, y), hn::Mul(x, x)), hn::Mul(tilt, tilt));
-  const F curve = hn::Sub(hn::Mul(bend, turned), hn::Add(hn::Mul(n.u, u_way), hn::Mul(n.v, v_way)));
-  const F step = hn::IfThenElse(hn::Lt(curve, zero), hn::Div(hn::Neg(slope), curve),
-                                hn::CopySign(splat(kShortArc), slope));
-  const F most = min(splat(kLongTurn), hn::Mul(splat(kRimStep), off));
-  const F turn = clamp(step, hn::Neg(most), most);
-  const F u = max(hn::Sub(n.u, hn::Mul(n.v, turn)), zero);
-  const F v = max(hn::Add(n.v, hn::Mul(n.u, turn)), zero);
-  const F to_unit = hn::Div(splat(1), hypot_of(u, v));
-  const BoxEdgeLanes::Place next = {hn::Mul(u, to_unit), hn::Mul(v, to_unit)};
-  const F moved = hn::Sub(hn::Mul(n.u, next.v), hn::Mul(n.v, next.u));
-  n = next;
-  return hn::Le(hn::Abs(moved), splat(kLastArc));
-}
 
 // A search over the widest gap of a vector of pairs.
 class BoxWaySearch {
@@ -264,19 +171,22 @@ class BoxWaySearch {
                        cycled({t, u_edge, v_edge}, back));
   }
 
+  static constexpr size_t kEdges = scalar::BoxEdge::kCount;
+
   static HWY_INLINE void search_edges(const CylinderAtBoxLanes& cylinder, BoxWayLanes& best) {
     const FloatTag tag;
-    HWY_ALIGN float bounds[BoxEdgeLanes::kCount][kLanes];
+    HWY_ALIGN float bounds[kEdges][kLanes];
     F known = best.gap;
-    for (size_t e = 0; e < BoxEdgeLanes::kCount; ++e) {
+    const ArcPlaceLanes middle = in_all_lanes(scalar::kQuarterMiddle);
+    for (size_t e = 0; e < kEdges; ++e) {
       F gap;
-      hn::Store(bound_on_quarter(BoxEdgeLanes(cylinder, e), gap), tag, bounds[e]);
+      hn::Store(bound_on_arc(BoxEdgeLanes::at(cylinder, e).arc, middle, gap), tag, bounds[e]);
       known = max(known, hn::Sub(gap, splat(kNotEnded)));
     }
     F searched = splat(-1);
     for (;;) {
       F most = splat(-FLT_MAX), place = splat(0);
-      for (size_t e = 0; e < BoxEdgeLanes::kCount; ++e) {
+      for (size_t e = 0; e < kEdges; ++e) {
         const F index = splat(static_cast<float>(e));
         const F bound =
             hn::IfThenElse(hn::Eq(index, searched), splat(-FLT_MAX), hn::Load(tag, bounds[e]));
@@ -295,29 +205,20 @@ class BoxWaySearch {
   // `place`: which edge of each lane.
   static HWY_INLINE void search_edge(const CylinderAtBoxLanes& cylinder, F place, Mask may,
                                      BoxWayLanes& best) {
-    const Mask from_z = hn::Ge(place, splat(8));
-    const Mask from_y = hn::AndNot(from_z, hn::Ge(place, splat(4)));
-    const IntTag tag;
-    const I bits = hn::ConvertTo(tag, place);
+    const Mask along_z = hn::Ge(place, splat(8));
+    const Mask along_y = hn::AndNot(along_z, hn::Ge(place, splat(4)));
+    const I bits = hn::ConvertTo(IntTag(), place);
     const F u_sign = sign_of_bit<0>(bits), v_sign = sign_of_bit<1>(bits);
-    const BoxEdgeLanes edge(cylinder, from_y, from_z, u_sign, v_sign);
-    const QuarterStartsLanes starts(edge);
-    BoxEdgeLanes::Place front = starts.front.n, back = starts.back.n;
-    Mask front_ended = no_lanes(), back_ended = no_lanes();
-    for (size_t i = 0; i < kSolidArcSteps; ++i) {
-      front_ended = step_on_quarter(edge, 1, front);
-      back_ended = step_on_quarter(edge, -1, back);
+    const BoxEdgeLanes edge = BoxEdgeLanes::at(cylinder, along_y, along_z, u_sign, v_sign);
+    std::array<ArcPlaceLanes, scalar::kQuarterPlaces.size()> places;
+    for (size_t i = 0; i < places.size(); ++i) places[i] = in_all_lanes(scalar::kQuarterPlaces[i]);
+    ArcFoundLanes front, back;
+    search_arc(edge.arc, places, front, back);
+    for (const ArcFoundLanes* found : {&front, &back}) {
+      const F3 way = {splat(0), hn::Mul(found->n.u, u_sign), hn::Mul(found->n.v, v_sign)};
+      // Back to the frame of the box: of an edge along y, y is the first coordinate.
+      best.keep_if_wider(may, found->gap, cycled(way, along_z, along_y), found->has_ended);
     }
-    const auto keep = [&](const QuarterStartLanes& start, const BoxEdgeLanes::Place& n,
-                          Mask ended) HWY_ATTR {
-      const F none = splat(-FLT_MAX);
-      const F gap = hn::IfThenElse(hn::Gt(start.gap, none), edge.gap(n), none);
-      const F3 way = {splat(0), hn::Mul(n.u, u_sign), hn::Mul(n.v, v_sign)};
-      // Back to the frame of the box: from y, the first coordinate is y.
-      best.keep_if_wider(may, gap, cycled(way, from_z, from_y), ended);
-    };
-    keep(starts.front, front, front_ended);
-    keep(starts.back, back, back_ended);
   }
 
   template <int kBit>

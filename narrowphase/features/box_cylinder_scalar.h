@@ -5,11 +5,8 @@
 // - a face, a cap: along its normal;
 // - a corner, and a side or a rim: away from the axis, or from the nearest point of the rim;
 // - an edge and a side: across both;
-// - an edge and a rim: the best direction of the quarter between the normals of the edge's two
-//   faces, by Newton's method from the best of samples on either side of the plane across the axis.
-// On its quarter the gap over an edge is that of its line, and concave in any multiple of the
-// direction. So the slope at the middle bounds it on all of the quarter (R. T. Rockafellar, Convex
-// Analysis, 1970, section 23). Edges are searched by their bounds, greatest first, and few are.
+// - an edge and a rim: the best direction between the normals of the edge's two faces
+//   (edge_arc_scalar.h). Edges are searched by their bounds, greatest first, and few are.
 #pragma once
 
 #include <array>
@@ -18,6 +15,7 @@
 #include <cstdint>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/edge_arc_scalar.h"
 #include "narrowphase/features/solid_contact_scalar.h"
 #include "narrowphase/scalar/vector.h"
 
@@ -69,134 +67,45 @@ struct BoxWay {
   float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
 };
 
-// An edge, in a frame that begins with its direction and has the normals of its faces as the other
-// two, u and v. Directions of its quarter have no component along it.
+// One of the edges: along the coordinate e / 4, between faces of these signs.
 struct BoxEdge {
   static constexpr size_t kCount = 12;
 
-  size_t first;                 // the coordinate along it
-  float u_sign, v_sign;         // of the normals
-  float u_way, v_way;           // from its line to the middle of the cylinder
-  float along, u_axis, v_axis;  // the axis of the cylinder
-  float half_length, rim;
+  size_t first;
+  float u_sign, v_sign;
+  EdgeArc arc;
 
   BoxEdge(const CylinderAtBox& cylinder, size_t e)
-      : first(e / 4),
-        u_sign(e & 1 ? -1.0f : 1.0f),
-        v_sign(e & 2 ? -1.0f : 1.0f),
-        half_length(cylinder.core.half_length),
-        rim(cylinder.core.rim) {
+      : first(e / 4), u_sign(e & 1 ? -1.0f : 1.0f), v_sign(e & 2 ? -1.0f : 1.0f) {
     const Vector3f middle = cycled(cylinder.middle, first), half = cycled(cylinder.half, first);
     const Vector3f axis = cycled(cylinder.core.axis, first);
-    u_way = middle.y() * u_sign - half.y();
-    v_way = middle.z() * v_sign - half.z();
-    along = axis.x();
-    u_axis = axis.y() * u_sign;
-    v_axis = axis.z() * v_sign;
+    arc = {.u_way = middle.y() * u_sign - half.y(),
+           .v_way = middle.z() * v_sign - half.z(),
+           .along = axis.x(),
+           .u_axis = axis.y() * u_sign,
+           .v_axis = axis.z() * v_sign,
+           .half_length = cylinder.core.half_length,
+           .rim = cylinder.core.rim,
+           .end = {0, 1}};
   }
 
-  struct Place {
-    float u, v;
-  };
-  float along_axis(const Place& n) const { return n.u * u_axis + n.v * v_axis; }
-  float off_axis(const Place& n) const {
-    const float aside = n.u * v_axis - n.v * u_axis;
-    return std::sqrt(along * along + aside * aside);
-  }
-  float gap(const Place& n) const {
-    return (n.u * u_way + n.v * v_way) -
-           (half_length * std::fabs(along_axis(n)) + rim * off_axis(n));
-  }
-  Vector3f direction(const Place& n) const {
+  Vector3f direction(const ArcPlace& n) const {
     return cycled({0, n.u * u_sign, n.v * v_sign}, (3 - first) % 3);
   }
 };
 
-// The gap at the middle of an edge's quarter, and a bound of it on the whole quarter.
-struct QuarterBound {
-  float gap, bound;
-
-  explicit QuarterBound(const BoxEdge& edge) {
-    constexpr float kDiagonal = kArcCosines[kArcSamples / 2];
-    const BoxEdge::Place n = {kDiagonal, kDiagonal};
-    const float x = edge.along_axis(n);
-    const float bend = edge.rim / max(edge.off_axis(n), kLeastRim);
-    const float reach = std::copysign(edge.half_length, x);
-    const float u = (edge.u_way - reach * edge.u_axis) - (n.u - x * edge.u_axis) * bend;
-    const float v = (edge.v_way - reach * edge.v_axis) - (n.v - x * edge.v_axis) * bend;
-    gap = u * n.u + v * n.v;
-    bound = min(u, v) > 0 ? std::sqrt(u * u + v * v) : max(u, v);
-  }
-};
-
-// The best of some directions of a quarter on the side of one cap.
-struct QuarterStart {
-  float gap = -kLargest;
-  BoxEdge::Place n{1, 0};
-
-  void keep_if_wider(float wide, const BoxEdge::Place& next) {
-    if (!(wide > gap)) return;
-    gap = wide;
-    n = next;
-  }
-};
-
-struct QuarterStarts {
-  QuarterStart front, back;  // n . axis >= 0, and <= 0
-
-  // Near the axis the gap has a narrow peak, so that the nearest direction to it is one of them.
-  // The ends, which faces have as well, count where there is no other.
-  explicit QuarterStarts(const BoxEdge& edge) {
-    for (size_t i = 1; i + 1 < kArcSamples; ++i) {
-      try_place(edge, {kArcCosines[i], kArcCosines[kArcSamples - 1 - i]}, true, true);
-    }
-    if (edge.u_axis * edge.v_axis > 0) {
-      const float over = 1 / std::sqrt(edge.u_axis * edge.u_axis + edge.v_axis * edge.v_axis);
-      try_place(edge, {std::fabs(edge.u_axis) * over, std::fabs(edge.v_axis) * over}, true, true);
-    }
-    const bool has_no_front = front.gap == -kLargest, has_no_back = back.gap == -kLargest;
-    try_place(edge, {1, 0}, has_no_front, has_no_back);
-    try_place(edge, {0, 1}, has_no_front, has_no_back);
-  }
-
- private:
-  void try_place(const BoxEdge& edge, const BoxEdge::Place& n, bool may_front, bool may_back) {
-    const float x = edge.along_axis(n), wide = edge.gap(n);
-    if (may_front && x >= 0) front.keep_if_wider(wide, n);
-    if (may_back && x <= 0) back.keep_if_wider(wide, n);
-  }
-};
-
-// A step of Newton's method for the gap on the side of one cap. Returns whether it was short.
-inline bool step_on_quarter(const BoxEdge& edge, float sign, BoxEdge::Place& n) {
-  const float reach = sign * edge.half_length;
-  const float u_way = edge.u_way - reach * edge.u_axis, v_way = edge.v_way - reach * edge.v_axis;
-  const float x = edge.along_axis(n), y = n.u * edge.v_axis - n.v * edge.u_axis;
-  const float off = max(edge.off_axis(n), kLeastRim);
-  const float over = 1 / off;
-  const float bend = edge.rim * over, tilt = (x * y) * over;
-  const float slope = (n.u * v_way - n.v * u_way) + edge.rim * tilt;
-  const float curve = bend * ((y * y - x * x) + tilt * tilt) - (n.u * u_way + n.v * v_way);
-  const float step = curve < 0 ? -slope / curve : std::copysign(kShortArc, slope);
-  const float most = min(kLongTurn, kRimStep * off);
-  const float turn = clamp(step, -most, most);
-  const float u = max(n.u - n.v * turn, 0.0f), v = max(n.v + n.u * turn, 0.0f);
-  const float to_unit = 1 / std::sqrt(u * u + v * v);
-  const BoxEdge::Place next = {u * to_unit, v * to_unit};
-  const float moved = n.u * next.v - n.v * next.u;
-  n = next;
-  return std::fabs(moved) <= kLastArc;
-}
+inline constexpr ArcPlace kQuarterMiddle = {kArcCosines[4], kArcCosines[4]};
+inline constexpr std::array<ArcPlace, 7> kQuarterPlaces = {{{kArcCosines[1], kArcCosines[7]},
+                                                            {kArcCosines[2], kArcCosines[6]},
+                                                            {kArcCosines[3], kArcCosines[5]},
+                                                            {kArcCosines[4], kArcCosines[4]},
+                                                            {kArcCosines[5], kArcCosines[3]},
+                                                            {kArcCosines[6], kArcCosines[2]},
+                                                            {kArcCosines[7], kArcCosines[1]}}};
 
 inline void search_quarter(const BoxEdge& edge, BoxWay& best) {
-  const QuarterStarts starts(edge);
-  for (const float sign : {1.0f, -1.0f}) {
-    const QuarterStart& start = sign > 0 ? starts.front : starts.back;
-    BoxEdge::Place n = start.n;
-    bool has_ended = false;
-    for (size_t i = 0; i < kSolidArcSteps; ++i) has_ended = step_on_quarter(edge, sign, n);
-    const float gap = start.gap > -kLargest ? edge.gap(n) : -kLargest;
-    best.keep_if_wider({gap, edge.direction(n), {0, 0, 0}, false, has_ended});
+  for (const ArcFound& found : search_arc(edge.arc, kQuarterPlaces)) {
+    best.keep_if_wider({found.gap, edge.direction(found.n), {0, 0, 0}, false, found.has_ended});
   }
 }
 
@@ -244,9 +153,9 @@ inline BoxWay find_box_way(const CylinderAtBox& cylinder) {
   std::array<float, BoxEdge::kCount> bounds;
   float known = best.gap;  // the widest gap that is known
   for (size_t e = 0; e < bounds.size(); ++e) {
-    const QuarterBound quarter(BoxEdge(cylinder, e));
-    bounds[e] = quarter.bound;
-    known = max(known, quarter.gap - kNotEnded);
+    const ArcBound quarter(BoxEdge(cylinder, e).arc, kQuarterMiddle);
+    bounds[e] = quarter.most;
+    known = max(known, quarter.at_middle - kNotEnded);
   }
   for (;;) {
     size_t e = 0;

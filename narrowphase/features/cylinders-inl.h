@@ -8,6 +8,7 @@
 #endif
 
 #include "base/tolerances.h"
+#include "narrowphase/features/edge_arc-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,7 +28,6 @@ struct CylinderContactLanes {
 
 HWY_INLINE F sign_of(F v) { return hn::CopySign(splat(1), v); }
 HWY_INLINE F unit_factor(F squared) { return hn::Div(splat(1), hn::Sqrt(squared)); }
-HWY_INLINE F hypot_of(F a, F b) { return hn::Sqrt(hn::Add(hn::Mul(a, a), hn::Mul(b, b))); }
 
 class CylinderPairLanes {
  public:
@@ -337,9 +337,14 @@ HWY_INLINE F reach(const AxialCoreLanes& core, const F3& n) {
                  hn::Mul(core.rim, hn::Sqrt(dot(across, across))));
 }
 
+HWY_INLINE F3 part_across(const F3& n, const F3& axis, F along) {
+  const F3 across = n - axis * along;
+  return across - axis * dot(axis, across);
+}
+
 HWY_INLINE F3 furthest_point(const AxialCoreLanes& core, const F3& n) {
   const F along = dot(core.axis, n);
-  const F3 across = n - core.axis * along;
+  const F3 across = part_across(n, core.axis, along);
   const F over = hn::Div(splat(1), max(hn::Sqrt(dot(across, across)), splat(kLeastRim)));
   return core.axis * hn::CopySign(core.half_length, along) + across * hn::Mul(core.rim, over);
 }

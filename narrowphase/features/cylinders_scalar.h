@@ -312,10 +312,18 @@ inline float reach(const AxialCore& core, const Vector3<float>& n) {
   return core.half_length * std::fabs(along) + core.rim * std::sqrt(dot(across, across));
 }
 
+// The part of a unit vector that is across a unit axis. What rounding leaves along the axis counts if
+// the vector nearly lies on it, so it is taken away once more.
+inline Vector3<float> part_across(const Vector3<float>& n, const Vector3<float>& axis,
+                                  float along) {
+  const Vector3<float> across = n - axis * along;
+  return across - axis * dot(axis, across);
+}
+
 // The point of a core about zero that is furthest along n.
 inline Vector3<float> furthest_point(const AxialCore& core, const Vector3<float>& n) {
   const float along = dot(core.axis, n);
-  const Vector3<float> across = n - core.axis * along;
+  const Vector3<float> across = part_across(n, core.axis, along);
   const float over = 1 / max(std::sqrt(dot(across, across)), kLeastRim);
   return core.axis * std::copysign(core.half_length, along) + across * (core.rim * over);
 }

@@ -5,19 +5,18 @@
 // - a face, a cap: along its normal;
 // - a corner, and a side or a rim: away from the axis, or from the nearest point of the rim;
 // - an edge and a side: across both;
-// - an edge and a rim: the best direction of the arc between the normals of the edge's two faces,
-//   by Newton's method.
-// On the arc of an edge the gap is that of the edge's line: no other point of the solid reaches
-// further. It is concave in any multiple of the direction, so a slope at the middle bounds it on
-// the whole arc (R. T. Rockafellar, Convex Analysis, 1970, section 23), and most edges need no
-// search.
+// - an edge and a rim: the best direction between the normals of the edge's two faces
+//   (narrowphase/features/edge_arc_scalar.h). The edge with the greatest bound is searched first,
+//   and then the few whose bounds exceed what it has.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "base/few_of.h"
 #include "base/tolerances.h"
+#include "narrowphase/features/edge_arc_scalar.h"
 #include "narrowphase/features/solid_contact_scalar.h"
 #include "narrowphase/hulls/solid.h"
 #include "narrowphase/scalar/vector.h"
@@ -43,7 +42,7 @@ struct SolidWay {
   enum class Feature : uint8_t { none, face, cap, corner, crossing, edge };
 
   float gap = -kLargest;
-  Vector3f n{0, 0, 1};
+  Vector3f n{0, 0, 1};  // with an edge: its place on the arc
   Feature feature = Feature::none;
   uint32_t place = 0;     // of the face, corner or edge
   bool has_ended = true;  // of a search
@@ -52,118 +51,62 @@ struct SolidWay {
     if (next.rank() > rank()) *this = next;
   }
   float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
+  bool is_on_arc() const { return feature == Feature::crossing || feature == Feature::edge; }
 };
 
-// An edge, by the normals of its faces; `d` is across both, `way` leads from its line to the middle
-// of the cylinder.
-struct EdgeArc {
-  Vector3f left, right, d, way;
+// The directions of an edge: along it, along the normal of its left face, and across both.
+struct EdgeFrame {
+  Vector3f along, u, v, right;
 
-  EdgeArc(const Solid& solid, size_t e, const Vector3f& middle)
-      : left(solid.normal(solid.side[0][e])),
-        right(solid.normal(solid.side[1][e])),
-        d(unit(cross(left, right))),
-        way(middle - solid.corner(solid.edges[e].from)) {}
-
-  bool holds(const Vector3f& n) const {
-    return dot(cross(left, n), d) > 0 && dot(cross(n, right), d) > 0;
+  EdgeFrame(const Solid& solid, size_t e)
+      : u(solid.normal(solid.side[0][e])), right(solid.normal(solid.side[1][e])) {
+    along = unit(cross(u, right));
+    v = cross(along, u);
+  }
+  Vector3f direction(const ArcPlace& n) const { return unit(u * n.u + v * n.v); }
+  EdgeArc arc(const Vector3f& from, const PlacedCylinder& cylinder) const {
+    const Vector3f way = cylinder.middle - from;
+    return {.u_way = dot(way, u),
+            .v_way = dot(way, v),
+            .along = dot(cylinder.axis, along),
+            .u_axis = dot(cylinder.axis, u),
+            .v_axis = dot(cylinder.axis, v),
+            .half_length = cylinder.half_length,
+            .rim = cylinder.rim,
+            .end = {dot(right, u), dot(right, v)}};
   }
 };
 
-// The middle of an arc, the gap there, and a bound of the gap on the whole arc by the slope there.
-struct ArcMiddle {
-  Vector3f n;
-  float gap, bound;
-
-  ArcMiddle(const EdgeArc& arc, const PlacedCylinder& cylinder) : n(unit(arc.left + arc.right)) {
-    const float along = dot(n, cylinder.axis);
-    const Vector3f across = n - cylinder.axis * along;
-    const float over = 1 / max(std::sqrt(dot(across, across)), kLeastRim);
-    const Vector3f slope = (arc.way - cylinder.axis * std::copysign(cylinder.half_length, along)) -
-                           across * (cylinder.rim * over);
-    gap = dot(slope, n);
-    const float at_left = dot(slope, arc.left), at_right = dot(slope, arc.right);
-    const float from_left = dot(slope, cross(arc.d, arc.left));
-    const bool has_peak = from_left > 0 && dot(slope, cross(arc.d, arc.right)) < 0;
-    bound =
-        has_peak ? std::sqrt(at_left * at_left + from_left * from_left) : max(at_left, at_right);
-  }
-};
-
-// A step of Newton's method for n . way - rim |n x axis| on the arc, from `way` to a cap. Returns
-// whether it was short.
-inline bool step_on_arc(const EdgeArc& arc, const Vector3f& way, const PlacedCylinder& cylinder,
-                        Vector3f& n) {
-  const Vector3f s = cross(arc.d, n), across = cross(n, cylinder.axis);
-  const float x = dot(n, cylinder.axis), y = dot(s, cylinder.axis);
-  const float off = max(std::sqrt(dot(across, across)), kLeastRim);
-  const float over = 1 / off;
-  const float tilt = (x * y) * over;
-  const float slope = dot(s, way) + cylinder.rim * tilt;
-  const float curve = (cylinder.rim * over) * ((y * y - x * x) + tilt * tilt) - dot(n, way);
-  const float step = curve < 0 ? -slope / curve : std::copysign(kShortArc, slope);
-  const float most = min(kLongTurn, kRimStep * off);
-  const float turn = clamp(step, -most, most);
-  Vector3f next = unit(n + s * turn);
-  if (dot(cross(arc.left, next), arc.d) < 0) next = arc.left;
-  if (dot(cross(next, arc.right), arc.d) < 0) next = arc.right;
-  const float moved = dot(cross(n, next), arc.d);
-  n = next;
-  return std::fabs(moved) <= kLastArc;
+inline EdgeArc arc_of_edge(const Solid& solid, size_t e, const PlacedCylinder& cylinder) {
+  return EdgeFrame(solid, e).arc(solid.corner(solid.end[0][e]), cylinder);
 }
 
-// The direction to start from on the side of one cap: the best of a few that lie there. Near the
-// axis the gap has a narrow peak, so that the nearest direction to the axis is one of them.
-struct ArcStart {
-  float gap = -kLargest;
-  Vector3f n{0, 0, 1};
+inline ArcPlace middle_of(const EdgeArc& arc) { return unit(ArcPlace{1 + arc.end.u, arc.end.v}); }
 
-  ArcStart(const EdgeArc& arc, const ArcMiddle& middle, const PlacedCylinder& cylinder,
-           float sign) {
-    const Vector3f nearest = unit((cylinder.axis - arc.d * dot(arc.d, cylinder.axis)) * sign);
-    keep_if_wider(middle.n, arc, cylinder, sign);
-    const Vector3f before = unit(arc.left + middle.n), behind = unit(middle.n + arc.right);
-    keep_if_wider(before, arc, cylinder, sign);
-    keep_if_wider(behind, arc, cylinder, sign);
-    keep_if_wider(unit(arc.left + before), arc, cylinder, sign);
-    keep_if_wider(unit(behind + arc.right), arc, cylinder, sign);
-    if (arc.holds(nearest)) keep_if_wider(nearest, arc, cylinder, sign);
-    if (gap > -kLargest) return;
-    keep_if_wider(arc.left, arc, cylinder, sign);
-    keep_if_wider(arc.right, arc, cylinder, sign);
-  }
-
- private:
-  void keep_if_wider(const Vector3f& m, const EdgeArc& arc, const PlacedCylinder& cylinder,
-                     float sign) {
-    const float wide = cylinder.gap_over(m, dot(m, cylinder.middle) - dot(m, arc.way));
-    if (!(dot(m, cylinder.axis) * sign >= 0 && wide > gap)) return;
-    gap = wide;
-    n = m;
-  }
-};
-
-inline SolidWay search_edge(const EdgeArc& arc, const ArcMiddle& middle, uint32_t e,
-                            const PlacedCylinder& cylinder, float sign) {
-  using Feature = SolidWay::Feature;
-  const ArcStart start(arc, middle, cylinder, sign);
-  SolidWay found{-kLargest, start.n, Feature::edge, e, false};
-  const Vector3f way = arc.way - cylinder.axis * (sign * cylinder.half_length);
-  for (size_t i = 0; i < kSolidArcSteps; ++i) {
-    found.has_ended = step_on_arc(arc, way, cylinder, found.n);
-  }
-  if (start.gap > -kLargest) {
-    found.gap = cylinder.gap_over(found.n, dot(found.n, cylinder.middle) - dot(found.n, arc.way));
-  }
-  return found;
+// By halving.
+inline std::array<ArcPlace, 5> places_on(const EdgeArc& arc) {
+  const auto between = [](const ArcPlace& m, const ArcPlace& n) {
+    return unit(ArcPlace{m.u + n.u, m.v + n.v});
+  };
+  const ArcPlace left{1, 0}, middle = middle_of(arc);
+  const ArcPlace before = between(left, middle), behind = between(middle, arc.end);
+  return {middle, before, behind, between(left, before), between(behind, arc.end)};
 }
 
-inline SolidWay way_across(const EdgeArc& arc, uint32_t e, const PlacedCylinder& cylinder) {
+// Across the edge and a line of the cylinder's side.
+inline ArcFound way_across(const EdgeArc& arc) {
+  const float sign = std::copysign(1.0f, arc.u_axis);
+  const ArcPlace n = unit(ArcPlace{-(arc.v_axis * sign), arc.u_axis * sign});
+  return {arc.holds(n) ? arc.gap(n) : -kLargest, n, true};
+}
+
+inline void search_edge(const EdgeArc& arc, uint32_t e, SolidWay& best) {
   using Feature = SolidWay::Feature;
-  const Vector3f n = unit(cross(arc.d, cylinder.axis));
-  const Vector3f out = dot(cross(arc.left, n), arc.d) < 0 ? Vector3f(-n) : n;
-  const float gap = cylinder.gap_over(out, dot(out, cylinder.middle) - dot(out, arc.way));
-  return {arc.holds(out) ? gap : -kLargest, out, Feature::crossing, e, true};
+  const auto keep = [&](const ArcFound& found, Feature feature) {
+    best.keep_if_wider({found.gap, {found.n.u, found.n.v, 0}, feature, e, found.has_ended});
+  };
+  keep(way_across(arc), Feature::crossing);
+  for (const ArcFound& found : search_arc(arc, places_on(arc))) keep(found, Feature::edge);
 }
 
 inline float height_along(const Solid& solid, const Vector3f& n) {
@@ -188,18 +131,21 @@ inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinde
     const Vector3f n = way_from_corner(solid.corner(i), cylinder.middle, cylinder.core());
     best.keep_if_wider({cylinder.gap_over(n, height_along(solid, n)), n, Feature::corner, i});
   }
-  // The widest gap that is known.
-  float most = best.gap;
-  for (uint32_t e = 0; e < solid.edge_count; ++e) {
-    most = max(most, ArcMiddle(EdgeArc(solid, e, cylinder.middle), cylinder).gap - kNotEnded);
+  std::array<float, Solid::kMostEdges> bounds;
+  float known = best.gap;  // the widest gap that is known
+  for (size_t e = 0; e < solid.edge_count; ++e) {
+    const EdgeArc arc = arc_of_edge(solid, e, cylinder);
+    const ArcBound bound(arc, middle_of(arc));
+    bounds[e] = bound.most;
+    known = max(known, bound.at_middle - kNotEnded);
   }
+  const auto greatest = std::max_element(bounds.begin(), bounds.begin() + solid.edge_count);
+  const auto first = static_cast<size_t>(greatest - bounds.begin());
+  if (first == solid.edge_count || !(bounds[first] > known)) return best;
+  search_edge(arc_of_edge(solid, first, cylinder), static_cast<uint32_t>(first), best);
+  const float least = max(known, best.rank());
   for (uint32_t e = 0; e < solid.edge_count; ++e) {
-    const EdgeArc arc(solid, e, cylinder.middle);
-    const ArcMiddle middle(arc, cylinder);
-    if (!(middle.bound > most)) continue;
-    best.keep_if_wider(way_across(arc, e, cylinder));
-    best.keep_if_wider(search_edge(arc, middle, e, cylinder, 1));
-    best.keep_if_wider(search_edge(arc, middle, e, cylinder, -1));
+    if (e != first && bounds[e] > least) search_edge(arc_of_edge(solid, e, cylinder), e, best);
   }
   return best;
 }
@@ -224,13 +170,12 @@ inline Vector3f furthest_corner(const Solid& solid, const Vector3f& n) {
   return solid.corner(furthest);
 }
 
-// Where the edge and the line of the cylinder's side cross, seen along the normal.
-inline Vector3f crossing_on_edge(const Solid& solid, const PlacedCylinder& cylinder,
-                                 const SolidWay& way) {
-  const EdgeArc arc(solid, way.place, cylinder.middle);
-  const Vector3f across = cross(cylinder.axis, way.n);
-  const float share = dot(arc.way, across) / dot(arc.d, across);
-  return solid.corner(solid.edges[way.place].from) + arc.d * share;
+// Where an edge and the line of the cylinder's side cross, seen along n.
+inline Vector3f crossing_on_edge(const Solid& solid, const PlacedCylinder& cylinder, size_t e,
+                                 const Vector3f& n) {
+  const Vector3f from = solid.corner(solid.end[0][e]), along = EdgeFrame(solid, e).along;
+  const Vector3f across = cross(cylinder.axis, n);
+  return from + along * (dot(cylinder.middle - from, across) / dot(along, across));
 }
 
 inline bool is_on_edge(const Solid& solid, size_t e, const Vector3f& p) {
@@ -245,43 +190,47 @@ inline bool is_on_edge(const Solid& solid, size_t e, const Vector3f& p) {
 // whatever the search has found. A contact is sure if its points lie on both shapes: then no other
 // direction has a wider gap, if they are apart. Where a face and a cap lie on each other, the point
 // of the one shape may lie beside the other, and the point of the other does not.
-//   height              how far the solid reaches along way.n
+//   n                   the direction of the way
+//   height              how far the solid reaches along n
 //   is_blunt            as is_blunt(); of others a point must lie clearly within, seen from the
 //   face furthest()          the corner at that height is_within(p, most)  as is_within() above
 template <class Furthest, class IsWithin>
 SolidContact contact_at(const Solid& solid, const PlacedCylinder& cylinder, const SolidWay& way,
-                        float height, bool is_blunt, const Furthest& furthest,
+                        const Vector3f& n, float height, bool is_blunt, const Furthest& furthest,
                         const IsWithin& is_within) {
   using Feature = SolidWay::Feature;
   const AxialCore core = cylinder.core();
-  const float gap = cylinder.gap_over(way.n, height);
-  const Vector3f to_cylinder = way.n * gap;
+  const float gap = cylinder.gap_over(n, height);
+  const Vector3f to_cylinder = n * gap;
   const auto is_on_cylinder = [&](const Vector3f& on_solid) {
     return holds(core, (on_solid + to_cylinder) - cylinder.middle, kBesideSolid);
   };
-  const Vector3f of_cylinder = (cylinder.middle - furthest_point(core, way.n)) - to_cylinder;
+  const Vector3f of_cylinder = (cylinder.middle - furthest_point(core, n)) - to_cylinder;
   Vector3f on_solid = of_cylinder;
   bool is_on_solid = true;
   if (way.feature == Feature::corner) on_solid = solid.corner(way.place);
   if (way.feature == Feature::cap) on_solid = furthest();
-  if (way.feature == Feature::crossing) on_solid = crossing_on_edge(solid, cylinder, way);
-  if (way.feature == Feature::crossing || way.feature == Feature::edge) {
-    is_on_solid = is_on_edge(solid, way.place, on_solid);
-  }
+  if (way.feature == Feature::crossing) on_solid = crossing_on_edge(solid, cylinder, way.place, n);
+  if (way.is_on_arc()) is_on_solid = is_on_edge(solid, way.place, on_solid);
   if (way.feature == Feature::face || !is_on_solid || !is_on_cylinder(on_solid)) {
     on_solid = of_cylinder;
-    const Vector3f inside = on_solid - way.n * (2 * kBesideSolid);
+    const Vector3f inside = on_solid - n * (2 * kBesideSolid);
     is_on_solid = is_blunt ? is_within(on_solid, kBesideSolid) : is_within(inside, -kBesideSolid);
   }
   const bool is_same = way.has_ended && std::fabs(gap - way.gap) <= kBesideSolid;
-  return {gap, way.n, on_solid, is_same && is_on_solid && is_on_cylinder(on_solid)};
+  return {gap, n, on_solid, is_same && is_on_solid && is_on_cylinder(on_solid)};
+}
+
+inline Vector3f direction_of(const Solid& solid, const SolidWay& way) {
+  return way.is_on_arc() ? EdgeFrame(solid, way.place).direction({way.n.x(), way.n.y()}) : way.n;
 }
 
 inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cylinder,
                                   const SolidWay& way, bool is_blunt) {
-  const auto furthest = [&] { return furthest_corner(solid, way.n); };
+  const Vector3f n = direction_of(solid, way);
+  const auto furthest = [&] { return furthest_corner(solid, n); };
   const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
-  return contact_at(solid, cylinder, way, height_along(solid, way.n), is_blunt, furthest,
+  return contact_at(solid, cylinder, way, n, height_along(solid, n), is_blunt, furthest,
                     is_in_solid);
 }
 
