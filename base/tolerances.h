@@ -71,6 +71,15 @@ inline constexpr float kBesideCore = 0x1p-18f;
 inline constexpr float kBesideSolid = 0x1p-19f;
 inline constexpr float kBlunt = 0x1p-3f;
 
+// Bounds of edges beside cylinders, from heights of faces in float32: by how much they are off at
+// most, if the square of the sine between the middle direction and the axis, and the cosine of half
+// the angle between the normals, are no less than these.
+inline constexpr float kEdgeBoundSlack = 0x1p-16f;
+inline constexpr float kEdgeBoundSine = 0x1p-6f;
+inline constexpr float kEdgeBoundCosine = 0x1p-3f;
+// The greatest such cosine of an arc whose peak float32 knows as well.
+inline constexpr float kWideArc = 0.99f;
+
 // Searches on arcs: samples of a quarter, their cosines, the steps of Newton's method, the longest
 // of them (three quarters of a sample), one where the curve is no peak, and one that is short
 // enough to be the last: the gap is then off by the square of what is left, the square of this.

@@ -138,11 +138,17 @@ void HullFeatures::add_edges(const HullGeometry& hull, std::span<const HullEdge>
     const uint32_t numbers[] = {edges[e].left, edges[e].right, edges[e].from, edges[e].to};
     for (size_t i = 0; i < 4; ++i) ends_[i * padded + e] = static_cast<uint8_t>(numbers[i]);
   }
+  half_cosines_.assign(padded_count(edges.size()), 1);
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const Eigen::Vector3f sum = normal(edges[e].left) + normal(edges[e].right);
+    half_cosines_[e] = static_cast<float>(sum.cast<double>().norm() / 2);
+  }
 }
 
 size_t HullFeatures::bytes() const {
   return sizeof(*this) + edges_.capacity() * sizeof(Edge) + ends_.capacity() * sizeof(ends_[0]) +
-         planes_.capacity() * sizeof(planes_[0]) + columns_.capacity() * sizeof(float);
+         half_cosines_.capacity() * sizeof(float) + planes_.capacity() * sizeof(planes_[0]) +
+         columns_.capacity() * sizeof(float);
 }
 
 size_t bytes_of(const HullGeometry& hull) {

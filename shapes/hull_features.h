@@ -68,6 +68,9 @@ class HullFeatures {
   // The points where all edges begin (0) or end (1), likewise.
   const uint8_t* ends(size_t end) const { return sides(2 + end); }
   size_t side_bytes() const { return ends_.size() / 4; }
+  // The cosine of half the angle between the normals of each edge's faces; padded to a multiple of
+  // sixteen.
+  const float* half_cosines() const { return half_cosines_.data(); }
 
   size_t bytes() const;
 
@@ -77,6 +80,7 @@ class HullFeatures {
 
   std::vector<Edge> edges_;
   std::vector<uint8_t> ends_;  // sides and ends of edges, in columns
+  std::vector<float> half_cosines_;
   std::vector<std::array<float, 4>> planes_;
   std::vector<float> columns_;
   float inner_radius_ = 0;

@@ -212,9 +212,10 @@ class BoxWaySearch {
     const BoxEdgeLanes edge = BoxEdgeLanes::at(cylinder, along_y, along_z, u_sign, v_sign);
     std::array<ArcPlaceLanes, scalar::kQuarterPlaces.size()> places;
     for (size_t i = 0; i < places.size(); ++i) places[i] = in_all_lanes(scalar::kQuarterPlaces[i]);
-    ArcFoundLanes front, back;
-    search_arc(edge.arc, places, front, back);
-    for (const ArcFoundLanes* found : {&front, &back}) {
+    ArcStartsLanes starts(edge.arc, places);
+    climb_arc(edge.arc, splat(1), starts.front);
+    climb_arc(edge.arc, splat(-1), starts.back);
+    for (const ArcFoundLanes* found : {&starts.front, &starts.back}) {
       const F3 way = {splat(0), hn::Mul(found->n.u, u_sign), hn::Mul(found->n.v, v_sign)};
       // Back to the frame of the box: of an edge along y, y is the first coordinate.
       best.keep_if_wider(may, found->gap, cycled(way, along_z, along_y), found->has_ended);

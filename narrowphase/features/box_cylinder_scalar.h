@@ -104,7 +104,9 @@ inline constexpr std::array<ArcPlace, 7> kQuarterPlaces = {{{kArcCosines[1], kAr
                                                             {kArcCosines[7], kArcCosines[1]}}};
 
 inline void search_quarter(const BoxEdge& edge, BoxWay& best) {
-  for (const ArcFound& found : search_arc(edge.arc, kQuarterPlaces)) {
+  const ArcStarts starts(edge.arc, kQuarterPlaces);
+  for (const float sign : {1.0f, -1.0f}) {
+    const ArcFound found = climb_arc(edge.arc, sign, sign > 0 ? starts.front : starts.back);
     best.keep_if_wider({found.gap, edge.direction(found.n), {0, 0, 0}, false, found.has_ended});
   }
 }

@@ -312,8 +312,8 @@ inline float reach(const AxialCore& core, const Vector3<float>& n) {
   return core.half_length * std::fabs(along) + core.rim * std::sqrt(dot(across, across));
 }
 
-// The part of a unit vector that is across a unit axis. What rounding leaves along the axis counts if
-// the vector nearly lies on it, so it is taken away once more.
+// The part of a unit vector that is across a unit axis. What rounding leaves along the axis counts
+// if the vector nearly lies on it, so it is taken away once more.
 inline Vector3<float> part_across(const Vector3<float>& n, const Vector3<float>& axis,
                                   float along) {
   const Vector3<float> across = n - axis * along;

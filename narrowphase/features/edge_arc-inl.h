@@ -121,9 +121,9 @@ class ArcStartsLanes {
   }
 };
 
-HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, float sign, ArcPlaceLanes& n) {
+HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, F sign, ArcPlaceLanes& n) {
   const F zero = splat(0), one = splat(1);
-  const F reach = hn::Mul(splat(sign), arc.half_length);
+  const F reach = hn::Mul(sign, arc.half_length);
   const F u_way = hn::Sub(arc.u_way, hn::Mul(reach, arc.u_axis));
   const F v_way = hn::Sub(arc.v_way, hn::Mul(reach, arc.v_axis));
   const F x = arc.along_axis(n), y = arc.aside(n);
@@ -139,8 +139,10 @@ HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, float sign, ArcPlaceLanes& 
                                 hn::CopySign(splat(kShortArc), slope));
   const F most = min(splat(kLongTurn), hn::Mul(splat(kRimStep), off));
   const F turn = clamp(step, hn::Neg(most), most);
-  ArcPlaceLanes next =
-      unit(ArcPlaceLanes{hn::Sub(n.u, hn::Mul(n.v, turn)), hn::Add(n.v, hn::Mul(n.u, turn))});
+  ArcPlaceLanes next = {hn::Sub(n.u, hn::Mul(n.v, turn)), hn::Add(n.v, hn::Mul(n.u, turn))};
+  const F squared = hn::Add(hn::Mul(next.u, next.u), hn::Mul(next.v, next.v));
+  const F to_unit = hn::Sub(splat(1.5f), hn::Mul(splat(0.5f), squared));
+  next = {hn::Mul(next.u, to_unit), hn::Mul(next.v, to_unit)};
   next = select(hn::Lt(next.v, zero), {one, zero}, next);
   next = select(hn::Lt(arc.before_end(next), zero), arc.end, next);
   const F moved = hn::Sub(hn::Mul(n.u, next.v), hn::Mul(n.v, next.u));
@@ -148,24 +150,13 @@ HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, float sign, ArcPlaceLanes& 
   return hn::Le(hn::Abs(moved), splat(kLastArc));
 }
 
-// The best on the side of either cap. Both searches go on at once, so that neither waits for its
-// own quotients.
-template <size_t kPlaces>
-HWY_INLINE void search_arc(const EdgeArcLanes& arc,
-                           const std::array<ArcPlaceLanes, kPlaces>& places, ArcFoundLanes& front,
-                           ArcFoundLanes& back) {
-  const ArcStartsLanes starts(arc, places);
-  front = starts.front;
-  back = starts.back;
-  for (size_t i = 0; i < kSolidArcSteps; ++i) {
-    front.has_ended = step_on_arc(arc, 1, front.n);
-    back.has_ended = step_on_arc(arc, -1, back.n);
-  }
+// `sign`: the side of each lane.
+HWY_INLINE void climb_arc(const EdgeArcLanes& arc, F sign, ArcFoundLanes& best) {
+  for (size_t i = 0; i < kSolidArcSteps; ++i) best.has_ended = step_on_arc(arc, sign, best.n);
+  best.n = unit(best.n);
   const F none = splat(-FLT_MAX);
-  for (ArcFoundLanes* best : {&front, &back}) {
-    const Mask is_there = hn::And(hn::Gt(best->gap, none), arc.holds(best->n));
-    best->gap = hn::IfThenElse(is_there, arc.gap(best->n), none);
-  }
+  const Mask is_there = hn::And(hn::Gt(best.gap, none), arc.holds(best.n));
+  best.gap = hn::IfThenElse(is_there, arc.gap(best.n), none);
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -99,7 +99,8 @@ struct ArcStarts {
   }
 };
 
-// A step of Newton's method for the gap on the side of one cap. Returns whether it was short.
+// A step of Newton's method for the gap on the side of one cap. Returns whether it was short. The
+// length of the result is off by a square of the step's: the next step takes most of it away.
 inline bool step_on_arc(const EdgeArc& arc, float sign, ArcPlace& n) {
   const float reach = sign * arc.half_length;
   const float u_way = arc.u_way - reach * arc.u_axis, v_way = arc.v_way - reach * arc.v_axis;
@@ -112,7 +113,9 @@ inline bool step_on_arc(const EdgeArc& arc, float sign, ArcPlace& n) {
   const float step = curve < 0 ? -slope / curve : std::copysign(kShortArc, slope);
   const float most = min(kLongTurn, kRimStep * off);
   const float turn = clamp(step, -most, most);
-  ArcPlace next = unit(ArcPlace{n.u - n.v * turn, n.v + n.u * turn});
+  ArcPlace next = {n.u - n.v * turn, n.v + n.u * turn};
+  const float to_unit = 1.5f - 0.5f * (next.u * next.u + next.v * next.v);
+  next = {next.u * to_unit, next.v * to_unit};
   if (next.v < 0) next = {1, 0};
   if (next.u * arc.end.v - next.v * arc.end.u < 0) next = arc.end;
   const float moved = n.u * next.v - n.v * next.u;
@@ -120,18 +123,12 @@ inline bool step_on_arc(const EdgeArc& arc, float sign, ArcPlace& n) {
   return std::fabs(moved) <= kLastArc;
 }
 
-// The best on the side of either cap. Those that end at the ends are left to the faces.
-inline std::array<ArcFound, 2> search_arc(const EdgeArc& arc, std::span<const ArcPlace> places) {
-  const ArcStarts starts(arc, places);
-  std::array<ArcFound, 2> found = {starts.front, starts.back};
-  for (const size_t side : {0, 1}) {
-    ArcFound& best = found[side];
-    for (size_t i = 0; i < kSolidArcSteps; ++i) {
-      best.has_ended = step_on_arc(arc, side == 0 ? 1.0f : -1.0f, best.n);
-    }
-    best.gap = best.gap > -kLargest && arc.holds(best.n) ? arc.gap(best.n) : -kLargest;
-  }
-  return found;
+// The best on the side of one cap, from a start. What ends at an end is left to the faces.
+inline ArcFound climb_arc(const EdgeArc& arc, float sign, ArcFound best) {
+  for (size_t i = 0; i < kSolidArcSteps; ++i) best.has_ended = step_on_arc(arc, sign, best.n);
+  best.n = unit(best.n);
+  best.gap = best.gap > -kLargest && arc.holds(best.n) ? arc.gap(best.n) : -kLargest;
+  return best;
 }
 
 }  // namespace carom::scalar

@@ -6,6 +6,16 @@
 #include "narrowphase/features/segment_scalar.h"
 
 namespace carom {
+namespace {
+
+// Faces of small solids meet at right angles.
+constexpr std::array<float, 16> kOfSquareEdges = [] {
+  std::array<float, 16> cosines{};
+  cosines.fill(0.707106781f);
+  return cosines;
+}();
+
+}  // namespace
 
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   const HullGeometry& geometry = *hull.geometry;
@@ -29,6 +39,7 @@ void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& 
   view_.edges = features.edges().data();
   view_.side = {features.sides(0), features.sides(1)};
   view_.end = {features.ends(0), features.ends(1)};
+  view_.half_cosine = features.half_cosines();
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = features.inner_radius();
 }
@@ -200,6 +211,7 @@ void SmallSolid::close() {
   view_.edges = edges_.begin();
   view_.side = {side_[0].data(), side_[1].data()};
   view_.end = {end_[0].data(), end_[1].data()};
+  view_.half_cosine = kOfSquareEdges.data();
 }
 
 }  // namespace carom

@@ -50,9 +50,12 @@ struct Solid {
   size_t edge_count = 0;
   const Edge* edges;                   // not of k-DOPs
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
-  std::array<const uint8_t*, 2> end;   // first and last point of each edge; not of k-DOPs
-  Vector3f middle;                     // inside
-  float inner_radius;                  // of a ball around `middle` inside the solid
+  // Of each edge its first and last point, and the cosine of half the angle between its faces'
+  // normals. Not of k-DOPs.
+  std::array<const uint8_t*, 2> end;
+  const float* half_cosine;
+  Vector3f middle;     // inside
+  float inner_radius;  // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
   const DopSolid* dop = nullptr;  // of k-DOPs alone: their edges and points

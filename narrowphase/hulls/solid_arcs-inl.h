@@ -13,7 +13,6 @@
 #include "narrowphase/features/edge_arc-inl.h"
 #include "narrowphase/features/solid_contact-inl.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
-#include "narrowphase/hulls/shell_corners-inl.h"
 #include "narrowphase/hulls/solid_cylinder.h"
 #include "simd/compress-inl.h"
 #include "simd/first_of_most-inl.h"
@@ -63,57 +62,125 @@ struct RecordsOf {
   HWY_INLINE float component(size_t lane, size_t c) const { return (*record(lane))[c]; }
 };
 
-// Loads the normals of both faces of the edges from `first` on, and returns the points where they
-// begin. The last lanes may hold any edge. In narrow vectors they come from records.
-HWY_INLINE F3 load_edges(const Solid& solid, size_t first, F3& left, F3& right) {
-  if constexpr (kLanes == WaitingArcs::kPairs) {
-    left = points_at(solid.normals(), solid.side[0] + first);
-    right = points_at(solid.normals(), solid.side[1] + first);
-    return points_at(solid.points(), solid.end[0] + first);
-  } else {
-    std::array<size_t, kLanes> edge;
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      edge[lane] = std::min(first + lane, solid.edge_count - 1);
+// How far the middle of a cylinder lies in front of each face, and how far its axis leads there.
+struct FaceHeights {
+  HWY_ALIGN float middle[Solid::kMostFaces + kLanes];
+  HWY_ALIGN float axis[Solid::kMostFaces + kLanes];
+};
+
+// Entries of a table of faces. Wide vectors look them up in registers.
+HWY_INLINE F at_faces(const float* table, size_t count, const uint8_t* faces) {
+  if constexpr (kLanes >= 8) {
+    const FloatTag tag;
+    const IntTag integers;
+    const I face = hn::PromoteTo(integers, hn::LoadU(hn::Rebind<uint8_t, IntTag>(), faces));
+    const auto within = hn::And(face, hn::Set(integers, static_cast<int32_t>(kLanes) - 1));
+    const auto place = hn::IndicesFromVec(tag, within);
+    F found = hn::TableLookupLanes(hn::Load(tag, table), place);
+    for (size_t i = kLanes; i < count; i += kLanes) {
+      const auto is_behind = hn::Gt(face, hn::Set(integers, static_cast<int32_t>(i) - 1));
+      found = hn::IfThenElse(hn::RebindMask(tag, is_behind),
+                             hn::TableLookupLanes(hn::Load(tag, table + i), place), found);
     }
-    const auto read = [&](const auto* records, const uint8_t* numbers, F3& v) HWY_ATTR {
-      const auto record = [&](size_t lane) { return records + numbers[edge[lane]]; };
-      F unused;
-      transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
-    };
-    F3 from;
-    read(solid.plane_record, solid.side[0], left);
-    read(solid.plane_record, solid.side[1], right);
-    read(solid.point_record, solid.end[0], from);
-    return from;
+    return found;
+  } else {
+    return lanes_from([&](size_t lane) { return table[faces[lane]]; });
   }
 }
 
-HWY_INLINE EdgeArcLanes load_arcs(const Solid& solid, const CylinderOfPair& cylinder,
-                                  size_t first) {
-  F3 left, right;
-  const F3 from = load_edges(solid, first, left, right) * splat(solid.scale);
-  const F3 along = unit(cross(left, right)), across = cross(along, left);
-  const F3 way = cylinder.middle - from;
-  return {dot(way, left),
-          dot(way, across),
-          dot(cylinder.axis, along),
-          dot(cylinder.axis, left),
-          dot(cylinder.axis, across),
-          cylinder.half_length,
-          cylinder.rim,
-          {dot(right, left), dot(right, across)}};
+// The length of the slope in the plane of the arc, by its parts along both ends, where that is a
+// direction of the arc, and otherwise `end`. Of a narrow arc rounding leaves no digits of it: then
+// `most`.
+HWY_INLINE F peak_of_arc(F left, F right, F cosine, F most, F end) {
+  const F one = splat(1), two = splat(2);
+  const F square = hn::Mul(cosine, cosine);
+  const F c = hn::Sub(hn::Mul(two, square), one);
+  const F sine = hn::Mul(hn::Mul(splat(4), square), hn::Sub(one, square));
+  const F squares = hn::Add(hn::Mul(left, left), hn::Mul(right, right));
+  const F product = hn::Mul(hn::Mul(two, c), hn::Mul(left, right));
+  const F length = hn::Sqrt(hn::Div(hn::Sub(squares, product), sine));
+  const Mask is_inside = hn::And(hn::Gt(hn::Sub(right, hn::Mul(c, left)), splat(0)),
+                                 hn::Gt(hn::Sub(left, hn::Mul(c, right)), splat(0)));
+  const Mask is_wide = hn::Le(cosine, splat(kWideArc));
+  const F peak = hn::IfThenElse(is_inside, hn::Add(length, splat(kEdgeBoundSlack)), end);
+  return hn::IfThenElse(is_wide, peak, most);
 }
 
-// Calls use(column, lanes) for all that an edge has of its own.
-template <class Use>
-HWY_INLINE void for_each_column(EdgeArcLanes& arc, const Use& use) {
-  use(0, arc.u_way);
-  use(1, arc.v_way);
-  use(2, arc.along);
-  use(3, arc.u_axis);
-  use(4, arc.v_axis);
-  use(5, arc.end.u);
-  use(6, arc.end.v);
+// Of the edges from `first` on.
+struct EdgeBoundLanes {
+  F at_middle, most;
+  Mask is_in_front, is_behind;
+
+  HWY_INLINE EdgeBoundLanes(const Solid& solid, const FaceHeights& faces,
+                            const CylinderOfPair& cylinder, size_t first) {
+    const F zero = splat(0), one = splat(1);
+    const F slack = splat(kEdgeBoundSlack), least_cosine = splat(kEdgeBoundCosine);
+    const auto at = [&](const float* table, size_t side) HWY_ATTR {
+      return at_faces(table, solid.face_count, solid.side[side] + first);
+    };
+    const F axis_l = at(faces.axis, 0), axis_r = at(faces.axis, 1);
+    is_in_front = hn::Gt(max(axis_l, axis_r), zero);
+    is_behind = hn::Or(hn::Lt(min(axis_l, axis_r), zero), hn::Not(is_in_front));
+    const F cosine = hn::LoadU(FloatTag(), solid.half_cosine + first);
+    const F over = hn::Div(one, max(cosine, least_cosine)), half = hn::Mul(splat(0.5f), over);
+    const F x = hn::Mul(hn::Add(axis_l, axis_r), half);
+    const F off = hn::Sub(one, hn::Mul(x, x));
+    const Mask is_known = hn::And(hn::Ge(off, splat(kEdgeBoundSine)), hn::Ge(cosine, least_cosine));
+    const F bend = hn::Div(cylinder.rim, hn::Sqrt(off));
+    const F reach = hn::CopySign(cylinder.half_length, x);
+    const auto slope = [&](F middle, F axis) HWY_ATTR {
+      return hn::Sub(hn::Sub(middle, hn::Mul(reach, axis)),
+                     hn::Mul(hn::Sub(cosine, hn::Mul(x, axis)), bend));
+    };
+    const F left = slope(at(faces.middle, 0), axis_l), right = slope(at(faces.middle, 1), axis_r);
+    const F sum = hn::Mul(hn::Add(left, right), half);
+    at_middle = hn::IfThenElse(is_known, hn::Sub(sum, slack), splat(-FLT_MAX));
+    const F end = hn::Add(max(left, right), slack);
+    most = end;
+    // Few arcs of shapes that overlap have a positive end.
+    const Mask may_peak = hn::Gt(end, zero);
+    if (!hn::AllFalse(FloatTag(), may_peak)) {
+      const F peak = peak_of_arc(left, right, cosine, hn::Mul(end, over), end);
+      most = hn::IfThenElse(may_peak, peak, end);
+    }
+    most = hn::IfThenElse(is_known, most, splat(FLT_MAX));
+  }
+};
+
+// Entries of a table of pairs, by the numbers of pairs.
+HWY_INLINE F at_pairs(const float* table, Indices pairs) {
+  const FloatTag tag;
+  const I within =
+      hn::And(hn::BitCast(IntTag(), pairs), hn::Set(IntTag(), static_cast<int32_t>(kLanes) - 1));
+  return hn::TableLookupLanes(hn::LoadU(tag, table), hn::IndicesFromVec(tag, within));
+}
+
+// One edge a lane, edges[lane] of the pair pairs[lane]. Lanes from `count` on may hold any edge.
+HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, const uint32_t* pairs,
+                                  const uint32_t* edges, size_t count) {
+  const auto read = [&](const auto& record_of, F3& v) HWY_ATTR {
+    const auto record = [&](size_t lane) {
+      const size_t i = std::min(lane, count - 1);
+      return record_of(*waiting.solid[pairs[i]], edges[i]);
+    };
+    F unused;
+    transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
+  };
+  F3 left, right, from;
+  read([](const Solid& s, size_t e) { return s.plane_record + s.side[0][e]; }, left);
+  read([](const Solid& s, size_t e) { return s.plane_record + s.side[1][e]; }, right);
+  read([](const Solid& s, size_t e) { return s.point_record + s.end[0][e]; }, from);
+  const Indices pair = hn::LoadU(IndexTag(), pairs);
+  const auto of_cylinder = [&](size_t i)
+                               HWY_ATTR { return at_pairs(waiting.cylinder[i].data(), pair); };
+  const F3 axis = {of_cylinder(0), of_cylinder(1), of_cylinder(2)};
+  const F3 middle = {of_cylinder(3), of_cylinder(4), of_cylinder(5)};
+  const F3 along = unit(cross(left, right)), across = cross(along, left);
+  const F3 way = middle - from * at_pairs(waiting.scale.data(), pair);
+  return {dot(way, left),    dot(way, across),
+          dot(axis, along),  dot(axis, left),
+          dot(axis, across), of_cylinder(6),
+          of_cylinder(7),    {dot(right, left), dot(right, across)}};
 }
 
 HWY_INLINE ArcPlaceLanes middle_of(const EdgeArcLanes& arc) {
@@ -129,30 +196,26 @@ HWY_INLINE std::array<ArcPlaceLanes, 5> places_on(const EdgeArcLanes& arc) {
   return {middle, before, behind, between(left, before), between(behind, arc.end)};
 }
 
-// The best way of each of a vector of edges.
+// The best way of each of a vector of edges, on the side of one cap each.
 struct EdgeWayLanes {
   ArcFoundLanes found;
   Mask is_crossing;
 
-  explicit HWY_INLINE EdgeWayLanes(const EdgeArcLanes& arc) {
-    const F sign = hn::CopySign(splat(1), arc.u_axis);
+  HWY_INLINE EdgeWayLanes(const EdgeArcLanes& arc, F sign) {
+    const F one = splat(1), side = hn::CopySign(one, arc.u_axis);
     const ArcPlaceLanes across =
-        unit(ArcPlaceLanes{hn::Neg(hn::Mul(arc.v_axis, sign)), hn::Mul(arc.u_axis, sign)});
+        unit(ArcPlaceLanes{hn::Neg(hn::Mul(arc.v_axis, side)), hn::Mul(arc.u_axis, side)});
     is_crossing = arc.holds(across);
     const F gap = hn::IfThenElse(is_crossing, arc.gap(across), splat(-FLT_MAX));
-    found = {gap, across, hn::Not(no_lanes())};
-    ArcFoundLanes front, back;
-    search_arc(arc, places_on(arc), front, back);
-    keep_if_wider(front);
-    keep_if_wider(back);
-  }
-
- private:
-  HWY_INLINE void keep_if_wider(const ArcFoundLanes& next) {
-    const Mask wider = hn::Gt(next.rank(), found.rank());
-    found.gap = hn::IfThenElse(wider, next.gap, found.gap);
-    found.n = select(wider, next.n, found.n);
-    found.has_ended = hn::Or(hn::And(wider, next.has_ended), hn::AndNot(wider, found.has_ended));
+    const ArcStartsLanes starts(arc, places_on(arc));
+    const Mask is_front = hn::Gt(sign, splat(0));
+    found = {hn::IfThenElse(is_front, starts.front.gap, starts.back.gap),
+             select(is_front, starts.front.n, starts.back.n), no_lanes()};
+    climb_arc(arc, sign, found);
+    const Mask wider = hn::Gt(found.rank(), gap);
+    found.gap = hn::IfThenElse(wider, found.gap, gap);
+    found.n = select(wider, found.n, across);
+    found.has_ended = hn::Or(found.has_ended, hn::Not(wider));
     is_crossing = hn::AndNot(wider, is_crossing);
   }
 };
@@ -184,119 +247,48 @@ class EdgeWays {
   uint64_t crossing_, ended_;
 };
 
-// Entries of a table of pairs, by the numbers of pairs.
-HWY_INLINE F at_pairs(const float* table, Indices pairs) {
-  const FloatTag tag;
-  const I within =
-      hn::And(hn::BitCast(IntTag(), pairs), hn::Set(IntTag(), static_cast<int32_t>(kLanes) - 1));
-  return hn::TableLookupLanes(hn::LoadU(tag, table), hn::IndicesFromVec(tag, within));
-}
-
-HWY_INLINE void search_first(SolidWay* ways, const WaitingArcs& waiting) {
-  const FloatTag tag;
-  EdgeArcLanes arc;
-  for_each_column(
-      arc, [&](size_t column, F& v) HWY_ATTR { v = hn::LoadU(tag, waiting.first[column].data()); });
-  arc.half_length = hn::LoadU(tag, waiting.half_length.data());
-  arc.rim = hn::LoadU(tag, waiting.rim.data());
-  const EdgeWays found{EdgeWayLanes(arc)};
-  for (size_t pair = 0; pair < kLanes; ++pair) {
-    if (!(waiting.has_first >> pair & 1)) continue;
-    ways[pair].keep_if_wider(found.way(pair, waiting.first_edge[pair]));
-  }
-}
-
-// Packs the edges whose bounds exceed what the best way of their pair has.
-HWY_INLINE void drop_settled(const SolidWay* ways, WaitingArcs& waiting) {
-  const IndexTag bits;
-  HWY_ALIGN float rank[WaitingArcs::kPairs];
-  for (size_t pair = 0; pair < kLanes; ++pair) rank[pair] = ways[pair].rank();
-  size_t left = 0;
-  for (size_t i = 0; i < waiting.rest_count; i += kLanes) {
-    const F bound = hn::BitCast(FloatTag(), hn::LoadU(bits, waiting.bound.data() + i));
-    const F least = at_pairs(rank, hn::LoadU(bits, waiting.pair.data() + i));
-    const Mask exists = hn::FirstN(FloatTag(), waiting.rest_count - i);
-    const Mask is_open = hn::And(exists, hn::Gt(bound, least));
-    const auto pack = [&](WaitingArcs::Column& column) HWY_ATTR {
-      const Indices v = hn::LoadU(bits, column.data() + i);
-      return compress_store(v, is_open, column.data() + left);
-    };
-    for (WaitingArcs::Column& column : waiting.rest) pack(column);
-    pack(waiting.edge);
-    left += pack(waiting.pair);
-  }
-  waiting.rest_count = left;
-}
-
 // Searches all edges that wait.
-inline void search_waiting(SolidWay* ways, WaitingArcs& waiting) {
-  const IndexTag bits;
-  if (waiting.has_first != 0) search_first(ways, waiting);
-  drop_settled(ways, waiting);
-  for (size_t i = 0; i < waiting.rest_count; i += kLanes) {
-    EdgeArcLanes arc;
-    for_each_column(arc, [&](size_t column, F& v) HWY_ATTR {
-      v = hn::BitCast(FloatTag(), hn::LoadU(bits, waiting.rest[column].data() + i));
-    });
-    const Indices pairs = hn::LoadU(bits, waiting.pair.data() + i);
-    arc.half_length = at_pairs(waiting.half_length.data(), pairs);
-    arc.rim = at_pairs(waiting.rim.data(), pairs);
-    const EdgeWays found{EdgeWayLanes(arc)};
-    for (size_t lane = 0; lane < std::min(kLanes, waiting.rest_count - i); ++lane) {
-      ways[waiting.pair[i + lane]].keep_if_wider(found.way(lane, waiting.edge[i + lane]));
+inline void search_waiting(SolidCylinderPair* pairs, WaitingEdges& waiting) {
+  for (size_t i = 0; i < waiting.count; i += kLanes) {
+    const uint32_t* const pair = waiting.pair.data() + i;
+    const uint32_t* const edge = waiting.edge.data() + i;
+    const size_t count = std::min(kLanes, waiting.count - i);
+    const F sign = hn::BitCast(FloatTag(), hn::LoadU(IndexTag(), waiting.sign.data() + i));
+    const EdgeWays found{EdgeWayLanes(load_arcs(waiting, pair, edge, count), sign)};
+    for (size_t lane = 0; lane < count; ++lane) {
+      pairs[pair[lane]].way.keep_if_wider(found.way(lane, edge[lane]));
     }
   }
-  waiting.rest_count = 0;
-  waiting.has_first = 0;
+  waiting.count = 0;
 }
 
-// Leaves the edges on whose arcs the gap may exceed that of the pair's way so far.
-inline void leave_edges(const Solid& solid, const CylinderOfPair& cylinder, uint32_t pair,
-                        const SolidWay& way, WaitingArcs& waiting) {
+// Leaves the edges on whose arcs the gap may exceed `gap`, which is that of the pair's way so far.
+inline void leave_edges(const Solid& solid, const FaceHeights& faces,
+                        const CylinderOfPair& cylinder, uint32_t pair, float gap,
+                        WaitingEdges& waiting) {
   const FloatTag tag;
   const IndexTag bits;
-  constexpr size_t kRoom = Solid::kMostEdges + kLanes;
-  HWY_ALIGN float bounds[kRoom];
-  HWY_ALIGN float arcs[WaitingArcs::kArcColumns][kRoom];
-  F known = splat(way.gap);
-  const F count = splat(static_cast<float>(solid.edge_count));
-  F index = lane_indices();
-  FirstOfMost greatest = FirstOfMost::none();
+  HWY_ALIGN float bounds[2][Solid::kMostEdges + kLanes];
+  F known = splat(gap);
   for (size_t i = 0; i < solid.edge_count; i += kLanes) {
-    EdgeArcLanes arc = load_arcs(solid, cylinder, i);
-    F gap;
-    const F bound = bound_on_arc(arc, middle_of(arc), gap);
-    const Mask exists = hn::Lt(index, count);
-    known = hn::IfThenElse(exists, max(known, hn::Sub(gap, splat(kNotEnded))), known);
-    greatest.keep(exists, bound, index);
-    index = hn::Add(index, splat(kLanes));
-    hn::Store(bound, tag, bounds + i);
-    for_each_column(arc,
-                    [&](size_t column, F& v) HWY_ATTR { hn::Store(v, tag, arcs[column] + i); });
-  }
-  const float most_known = hn::GetLane(hn::MaxOfLanes(tag, known));
-  if (solid.edge_count == 0 || !(greatest.value() > most_known)) return;
-  const size_t first = greatest.first();
-  for (size_t column = 0; column < WaitingArcs::kArcColumns; ++column) {
-    waiting.first[column][pair] = arcs[column][first];
-  }
-  waiting.first_edge[pair] = static_cast<uint32_t>(first);
-  waiting.has_first |= 1u << pair;
-  bounds[first] = -FLT_MAX;
-  for (size_t i = 0; i < solid.edge_count; i += kLanes) {
-    const F bound = hn::Load(tag, bounds + i);
+    const EdgeBoundLanes bound(solid, faces, cylinder, i);
     const Mask exists = hn::FirstN(tag, solid.edge_count - i);
-    const Mask is_open = hn::And(exists, hn::Gt(bound, splat(most_known)));
-    if (hn::AllFalse(tag, is_open)) continue;
-    const auto put = [&](Indices v, WaitingArcs::Column& column) HWY_ATTR {
-      return compress_store(v, is_open, column.data() + waiting.rest_count);
-    };
-    for (size_t column = 0; column < WaitingArcs::kArcColumns; ++column) {
-      put(hn::BitCast(bits, hn::Load(tag, arcs[column] + i)), waiting.rest[column]);
+    known = hn::IfThenElse(exists, max(known, bound.at_middle), known);
+    const F none = splat(-FLT_MAX), most = hn::IfThenElse(exists, bound.most, none);
+    hn::Store(hn::IfThenElse(bound.is_in_front, most, none), tag, bounds[0] + i);
+    hn::Store(hn::IfThenElse(bound.is_behind, most, none), tag, bounds[1] + i);
+  }
+  known = hn::MaxOfLanes(tag, known);
+  for (const size_t side : {0, 1}) {
+    const Indices sign = hn::BitCast(bits, splat(side == 0 ? 1.0f : -1.0f));
+    for (size_t i = 0; i < solid.edge_count; i += kLanes) {
+      const Mask is_open = hn::Gt(hn::Load(tag, bounds[side] + i), known);
+      const size_t at = waiting.count;
+      compress_store(hn::Iota(bits, static_cast<uint32_t>(i)), is_open, waiting.edge.data() + at);
+      hn::StoreU(sign, bits, waiting.sign.data() + at);
+      hn::StoreU(hn::Set(bits, pair), bits, waiting.pair.data() + at);
+      waiting.count += hn::CountTrue(tag, is_open);
     }
-    put(hn::BitCast(bits, bound), waiting.bound);
-    put(hn::Set(bits, pair), waiting.pair);
-    waiting.rest_count += put(hn::Iota(bits, static_cast<uint32_t>(i)), waiting.edge);
   }
 }
 

@@ -17,20 +17,22 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-SolidWay best_face(const Solid& solid, const CylinderOfPair& cylinder) {
+constexpr float kFirstCorner = Solid::kMostFaces;  // numbers of faces, then of corners
+
+void try_faces(const Solid& solid, const CylinderOfPair& cylinder, FaceHeights& heights,
+               FirstOfMost& best) {
   const FloatTag tag;
   const F scale = splat(solid.scale);
   const F count = splat(static_cast<float>(solid.face_count));
-  FirstOfMost best = FirstOfMost::none();
   F index = lane_indices();
   for (size_t i = 0; i < solid.face_count; i += kLanes) {
     const F3 n = load3({solid.plane[0], solid.plane[1], solid.plane[2]}, i, splat(1));
     const F height = hn::Mul(hn::LoadU(tag, solid.plane[3] + i), scale);
     best.keep(hn::Lt(index, count), cylinder.gap_over(n, height), index);
     index = hn::Add(index, splat(kLanes));
+    hn::Store(hn::Sub(dot(n, cylinder.middle), height), tag, heights.middle + i);
+    hn::Store(dot(n, cylinder.axis), tag, heights.axis + i);
   }
-  const size_t place = best.first();
-  return {best.value(), solid.normal(place), SolidWay::Feature::face, static_cast<uint32_t>(place)};
 }
 
 // How far the solid reaches along n, and against it.
@@ -48,49 +50,70 @@ void reach_along(const Solid& solid, const Vector3f& n, float& along, float& aga
   against = -hn::GetLane(hn::MinOfLanes(tag, least));
 }
 
-void keep_caps(const Solid& solid, const PlacedCylinder& cylinder, SolidWay& best) {
+SolidWay best_cap(const Solid& solid, const PlacedCylinder& cylinder) {
   float along, against;
   reach_along(solid, cylinder.axis, along, against);
   const float middle = scalar::dot(cylinder.axis, cylinder.middle);
-  for (const float sign : {1.0f, -1.0f}) {
-    const float height = sign > 0 ? along : against;
-    const float gap = (sign * middle - cylinder.half_length) - height;
-    best.keep_if_wider({gap, cylinder.axis * sign, SolidWay::Feature::cap, 0});
-  }
+  const float front = (middle - cylinder.half_length) - along;
+  const float back = (-middle - cylinder.half_length) - against;
+  const bool is_back = back > front;
+  return {is_back ? back : front, cylinder.axis * (is_back ? -1.0f : 1.0f), SolidWay::Feature::cap};
 }
 
-SolidWay best_corner(const Solid& solid, const PlacedCylinder& placed,
-                     const CylinderOfPair& cylinder) {
+// How far the solid reaches along each of the directions.
+HWY_INLINE F reach_along(const Solid& solid, const F3& n) {
+  const auto height = [&](size_t i) HWY_ATTR {
+    return dot(n, F3{splat(solid.point[0][i]), splat(solid.point[1][i]), splat(solid.point[2][i])});
+  };
+  // Two chains; columns are padded to an even number.
+  F even = height(0), odd = height(1);
+  for (size_t i = 2; i < solid.point_count; i += 2) {
+    even = max(even, height(i));
+    odd = max(odd, height(i + 1));
+  }
+  return max(even, odd);
+}
+
+struct CornerWays {
+  HWY_ALIGN float n[3][kMostLanePoints + kLanes];
+
+  Vector3f operator[](size_t i) const { return {n[0][i], n[1][i], n[2][i]}; }
+};
+
+void try_corners(const Solid& solid, const CylinderOfPair& cylinder, CornerWays& ways,
+                 FirstOfMost& best) {
+  const FloatTag tag;
   const AxialCoreLanes core = {cylinder.axis, cylinder.half_length, cylinder.rim};
   const F scale = splat(solid.scale), count = splat(static_cast<float>(solid.point_count));
-  FirstOfMost best = FirstOfMost::none();
   F index = lane_indices();
   for (size_t i = 0; i < solid.point_count; i += kLanes) {
     const F3 n = way_from_corner(load3(solid.point, i, scale), cylinder.middle, core);
-    F height = splat(-FLT_MAX);
-    for (size_t k = 0; k < solid.point_count; ++k) {
-      height = max(height, dot(n, in_all_lanes(solid.corner(k))));
-    }
-    best.keep(hn::Lt(index, count), cylinder.gap_over(n, height), index);
+    // The scale is a power of two: it may go to the direction, once for all corners.
+    const F gap = cylinder.gap_over(n, reach_along(solid, n * scale));
+    best.keep(hn::Lt(index, count), gap, hn::Add(index, splat(kFirstCorner)));
     index = hn::Add(index, splat(kLanes));
+    hn::Store(n.x, tag, ways.n[0] + i);
+    hn::Store(n.y, tag, ways.n[1] + i);
+    hn::Store(n.z, tag, ways.n[2] + i);
   }
-  const size_t place = best.first();
-  return {best.value(), scalar::way_from_corner(solid.corner(place), placed.middle, placed.core()),
-          SolidWay::Feature::corner, static_cast<uint32_t>(place)};
 }
 
-void begin(const Solid& solid, const PlacedCylinder& placed, uint8_t pair, SolidWay* ways,
-           WaitingArcs& waiting) {
-  if (waiting.rest_count + solid.edge_count > WaitingArcs::kMost) search_waiting(ways, waiting);
-  const CylinderOfPair cylinder(placed);
-  SolidWay best;
-  best.keep_if_wider(best_face(solid, cylinder));
-  keep_caps(solid, placed, best);
-  best.keep_if_wider(best_corner(solid, placed, cylinder));
-  ways[pair] = best;
-  waiting.half_length[pair] = placed.half_length;
-  waiting.rim[pair] = placed.rim;
-  leave_edges(solid, cylinder, pair, best, waiting);
+// The best way of faces, caps and corners; of equals that of the first kind.
+SolidWay best_way(const Solid& solid, const PlacedCylinder& placed, const CylinderOfPair& cylinder,
+                  FaceHeights& heights) {
+  using Feature = SolidWay::Feature;
+  FirstOfMost best = FirstOfMost::none();
+  CornerWays corner_ways;
+  try_faces(solid, cylinder, heights, best);
+  try_corners(solid, cylinder, corner_ways, best);
+  const SolidWay cap = best_cap(solid, placed);
+  const float gap = best.value();
+  const size_t place = best.first();
+  const bool is_face = place < Solid::kMostFaces;
+  if (cap.gap > gap || (cap.gap == gap && !is_face)) return cap;
+  if (is_face) return {gap, solid.normal(place), Feature::face, static_cast<uint32_t>(place)};
+  const size_t corner = place - Solid::kMostFaces;
+  return {gap, corner_ways[corner], Feature::corner, static_cast<uint32_t>(corner)};
 }
 
 bool is_within(const Solid& solid, const Vector3f& p, float most) {
@@ -118,20 +141,52 @@ Vector3f furthest_corner(const Solid& solid, const Vector3f& n) {
   return solid.corner(best.first());
 }
 
-scalar::SolidContact contact(const Solid& solid, const PlacedCylinder& cylinder,
-                             const SolidWay& way, bool is_blunt) {
+void find_contact(SolidCylinderPair& pair) {
+  const Solid& solid = *pair.solid;
+  const Vector3f n = scalar::direction_of(solid, pair.way);
   float along, against;
-  const Vector3f n = scalar::direction_of(solid, way);
   reach_along(solid, n, along, against);
   const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
   const auto furthest = [&] { return furthest_corner(solid, n); };
-  return scalar::contact_at(solid, cylinder, way, n, along, is_blunt, furthest, is_in_solid);
+  pair.contact = scalar::contact_at(solid, pair.cylinder, pair.way, n, along, pair.is_blunt,
+                                    furthest, is_in_solid);
 }
 
-const SolidWaySteps& solid_way_steps() {
-  static constexpr SolidWaySteps kSteps = {&begin, &search_waiting, &contact};
-  return kSteps;
+void wait(const SolidCylinderPair& pair, size_t place, const FaceHeights& heights,
+          const CylinderOfPair& cylinder, WaitingEdges& waiting) {
+  waiting.solid[place] = pair.solid;
+  waiting.scale[place] = pair.solid->scale;
+  const auto& [middle, axis, half_length, rim] = pair.cylinder;
+  const float numbers[] = {axis.x(),   axis.y(),   axis.z(),    middle.x(),
+                           middle.y(), middle.z(), half_length, rim};
+  for (size_t i = 0; i < 8; ++i) waiting.cylinder[i][place] = numbers[i];
+  leave_edges(*pair.solid, heights, cylinder, static_cast<uint32_t>(place), pair.way.gap, waiting);
 }
+
+void find_solid_contacts(SolidCylinderPair* pairs, size_t count) {
+  WaitingEdges waiting;
+  for (size_t i = 0; i < count; ++i) {
+    SolidCylinderPair& pair = pairs[i];
+    if (waiting.count + 2 * pair.solid->edge_count > WaitingEdges::kMost) {
+      search_waiting(pairs, waiting);
+    }
+    const CylinderOfPair cylinder(pair.cylinder);
+    FaceHeights heights;
+    pair.way = best_way(*pair.solid, pair.cylinder, cylinder, heights);
+    pair.is_found = false;
+    if (pair.way.gap > 0) {
+      find_contact(pair);
+      pair.is_found = pair.contact.is_sure;
+    }
+    if (!pair.is_found) wait(pair, i, heights, cylinder, waiting);
+  }
+  search_waiting(pairs, waiting);
+  for (size_t i = 0; i < count; ++i) {
+    if (!pairs[i].is_found) find_contact(pairs[i]);
+  }
+}
+
+FindSolidContacts solid_contacts() { return &find_solid_contacts; }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
@@ -143,11 +198,11 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(solid_way_steps);
+HWY_EXPORT(solid_contacts);
 
 }  // namespace
 
-const SolidWaySteps& solid_way_steps_in_lanes() { return CAROM_DISPATCH(solid_way_steps)(); }
+FindSolidContacts find_solid_contacts_in_lanes() { return CAROM_DISPATCH(solid_contacts)(); }
 
 }  // namespace carom
 #endif  // HWY_ONCE

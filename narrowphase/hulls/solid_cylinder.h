@@ -10,43 +10,39 @@
 
 namespace carom {
 
-// Edges of a vector of pairs that wait for a search, in columns: of each pair the one with the
-// greatest bound, and the others whose bounds exceed what is known. What lies behind the last is
-// searched, too, and not looked at.
-struct WaitingArcs {
+// Edges of a vector of pairs that wait for a search on the side of one cap. What lies behind the
+// last is not looked at.
+struct WaitingEdges {
   static constexpr size_t kPairs = 16;
-  static constexpr size_t kMost = 256;
-  static constexpr size_t kPadding = 16;    // a vector is stored as a whole
-  static constexpr size_t kArcColumns = 7;  // those of scalar::EdgeArc that an edge has of its own
+  static constexpr size_t kMost = 3 * Solid::kMostEdges;
+  static constexpr size_t kPadding = 16;  // a vector is stored as a whole
 
-  // Bits of floats.
   using Column = std::array<uint32_t, kMost + kPadding>;
 
-  std::array<std::array<float, kPairs>, kArcColumns> first;
-  std::array<uint32_t, kPairs> first_edge;
-  uint32_t has_first = 0;  // bits of pairs
+  Column edge, pair;
+  Column sign;  // of the cap: bits of floats
+  size_t count = 0;
 
-  std::array<Column, kArcColumns> rest;
-  Column bound, edge, pair;
-  size_t rest_count = 0;
-
-  // Of the cylinders of pairs.
-  std::array<float, kPairs> half_length, rim;
+  // Of pairs. Numbers of cylinders: axis, middle, half length, rim.
+  std::array<const Solid*, kPairs> solid;
+  std::array<float, kPairs> scale;
+  std::array<std::array<float, kPairs>, 8> cylinder;
 };
 
-struct SolidWaySteps {
-  // Sets ways[pair] to the best way of faces, caps and corners, and leaves edges to `waiting`. May
-  // search those of other pairs first. `pair` is less than the lanes of a vector.
-  void (*begin)(const Solid& solid, const scalar::PlacedCylinder& cylinder, uint8_t pair,
-                scalar::SolidWay* ways, WaitingArcs& waiting);
-  // Searches all that wait. Then ways[pair] is what scalar::find_solid_way() finds.
-  void (*finish)(scalar::SolidWay* ways, WaitingArcs& waiting);
-  // As scalar::contact_along().
-  scalar::SolidContact (*contact)(const Solid& solid, const scalar::PlacedCylinder& cylinder,
-                                  const scalar::SolidWay& way, bool is_blunt);
+// A pair, and what is found of it.
+struct SolidCylinderPair {
+  const Solid* solid;
+  scalar::PlacedCylinder cylinder;
+  bool is_blunt;
+  scalar::SolidWay way;
+  scalar::SolidContact contact;
+  bool is_found;
 };
 
-// On the ISA in use.
-const SolidWaySteps& solid_way_steps_in_lanes();
+// scalar::find_solid_contact() for a vector of pairs.
+using FindSolidContacts = void (*)(SolidCylinderPair* pairs, size_t count);
+
+// On the ISA in use. Takes no more pairs than a vector has lanes.
+FindSolidContacts find_solid_contacts_in_lanes();
 
 }  // namespace carom

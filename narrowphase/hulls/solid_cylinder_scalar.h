@@ -6,8 +6,7 @@
 // - a corner, and a side or a rim: away from the axis, or from the nearest point of the rim;
 // - an edge and a side: across both;
 // - an edge and a rim: the best direction between the normals of the edge's two faces
-//   (narrowphase/features/edge_arc_scalar.h). The edge with the greatest bound is searched first,
-//   and then the few whose bounds exceed what it has.
+//   (narrowphase/features/edge_arc_scalar.h). Few edges have bounds that exceed what is known.
 #pragma once
 
 #include <algorithm>
@@ -77,6 +76,60 @@ struct EdgeFrame {
   }
 };
 
+// How far the middle of the cylinder lies in front of each face, and how far its axis leads there.
+struct FaceHeights {
+  std::array<float, Solid::kMostFaces> middle, axis;
+
+  FaceHeights(const Solid& solid, const PlacedCylinder& cylinder) {
+    for (size_t f = 0; f < solid.face_count; ++f) {
+      middle[f] = dot(solid.normal(f), cylinder.middle) - solid.height(f);
+      axis[f] = dot(solid.normal(f), cylinder.axis);
+    }
+  }
+};
+
+// The length of the slope in the plane of the arc, by its parts along both ends, where that is a
+// direction of the arc, and otherwise `end`. Of a narrow arc rounding leaves no digits of it: then
+// `most`.
+inline float peak_of_arc(float left, float right, float cosine, float most, float end) {
+  if (!(cosine <= kWideArc)) return most;
+  const float square = cosine * cosine;
+  const float c = 2 * square - 1, sine = (4 * square) * (1 - square);
+  const float squares = left * left + right * right, product = (2 * c) * (left * right);
+  const bool is_inside = right - c * left > 0 && left - c * right > 0;
+  return is_inside ? std::sqrt((squares - product) / sine) + kEdgeBoundSlack : end;
+}
+
+// The least that the gap is at the middle of an edge's arc, and the most that it may be on the
+// whole arc: with the slope at the middle, the greater of those at its ends or, if that is
+// positive, the peak between. An edge that float32 has no bound for is searched.
+struct EdgeBound {
+  float at_middle, most;
+  bool is_in_front, is_behind;  // whether the arc has directions on the sides of the caps
+};
+
+inline EdgeBound bound_edge(const Solid& solid, size_t e, const FaceHeights& faces,
+                            const PlacedCylinder& cylinder) {
+  const size_t l = solid.side[0][e], r = solid.side[1][e];
+  const float axis_l = faces.axis[l], axis_r = faces.axis[r];
+  const bool is_in_front = max(axis_l, axis_r) > 0;
+  const bool is_behind = min(axis_l, axis_r) < 0 || !is_in_front;
+  const float cosine = solid.half_cosine[e];
+  const float over = 1 / max(cosine, kEdgeBoundCosine), half = 0.5f * over;
+  const float x = (axis_l + axis_r) * half;
+  const float off = 1 - x * x;
+  if (!(off >= kEdgeBoundSine && cosine >= kEdgeBoundCosine)) {
+    return {-kLargest, kLargest, is_in_front, is_behind};
+  }
+  const float bend = cylinder.rim / std::sqrt(off);
+  const float reach = std::copysign(cylinder.half_length, x);
+  const float left = (faces.middle[l] - reach * axis_l) - (cosine - x * axis_l) * bend;
+  const float right = (faces.middle[r] - reach * axis_r) - (cosine - x * axis_r) * bend;
+  const float end = max(left, right) + kEdgeBoundSlack;
+  const float most = end > 0 ? peak_of_arc(left, right, cosine, end * over, end) : end;
+  return {(left + right) * half - kEdgeBoundSlack, most, is_in_front, is_behind};
+}
+
 inline EdgeArc arc_of_edge(const Solid& solid, size_t e, const PlacedCylinder& cylinder) {
   return EdgeFrame(solid, e).arc(solid.corner(solid.end[0][e]), cylinder);
 }
@@ -100,13 +153,14 @@ inline ArcFound way_across(const EdgeArc& arc) {
   return {arc.holds(n) ? arc.gap(n) : -kLargest, n, true};
 }
 
-inline void search_edge(const EdgeArc& arc, uint32_t e, SolidWay& best) {
+inline void search_edge(const EdgeArc& arc, float sign, uint32_t e, SolidWay& best) {
   using Feature = SolidWay::Feature;
   const auto keep = [&](const ArcFound& found, Feature feature) {
     best.keep_if_wider({found.gap, {found.n.u, found.n.v, 0}, feature, e, found.has_ended});
   };
   keep(way_across(arc), Feature::crossing);
-  for (const ArcFound& found : search_arc(arc, places_on(arc))) keep(found, Feature::edge);
+  const ArcStarts starts(arc, places_on(arc));
+  keep(climb_arc(arc, sign, sign > 0 ? starts.front : starts.back), Feature::edge);
 }
 
 inline float height_along(const Solid& solid, const Vector3f& n) {
@@ -115,7 +169,8 @@ inline float height_along(const Solid& solid, const Vector3f& n) {
   return most;
 }
 
-inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinder) {
+// The best way of faces, caps and corners.
+inline SolidWay find_simple_way(const Solid& solid, const PlacedCylinder& cylinder) {
   using Feature = SolidWay::Feature;
   SolidWay best;
   for (uint32_t f = 0; f < solid.face_count; ++f) {
@@ -131,23 +186,25 @@ inline SolidWay find_solid_way(const Solid& solid, const PlacedCylinder& cylinde
     const Vector3f n = way_from_corner(solid.corner(i), cylinder.middle, cylinder.core());
     best.keep_if_wider({cylinder.gap_over(n, height_along(solid, n)), n, Feature::corner, i});
   }
-  std::array<float, Solid::kMostEdges> bounds;
-  float known = best.gap;  // the widest gap that is known
-  for (size_t e = 0; e < solid.edge_count; ++e) {
-    const EdgeArc arc = arc_of_edge(solid, e, cylinder);
-    const ArcBound bound(arc, middle_of(arc));
-    bounds[e] = bound.most;
-    known = max(known, bound.at_middle - kNotEnded);
-  }
-  const auto greatest = std::max_element(bounds.begin(), bounds.begin() + solid.edge_count);
-  const auto first = static_cast<size_t>(greatest - bounds.begin());
-  if (first == solid.edge_count || !(bounds[first] > known)) return best;
-  search_edge(arc_of_edge(solid, first, cylinder), static_cast<uint32_t>(first), best);
-  const float least = max(known, best.rank());
-  for (uint32_t e = 0; e < solid.edge_count; ++e) {
-    if (e != first && bounds[e] > least) search_edge(arc_of_edge(solid, e, cylinder), e, best);
-  }
   return best;
+}
+
+// Looks for a better way at the edges whose bounds exceed what is known.
+inline void search_edges(const Solid& solid, const PlacedCylinder& cylinder, SolidWay& best) {
+  const FaceHeights faces(solid, cylinder);
+  FewOf<EdgeBound, Solid::kMostEdges> bounds;
+  float known = best.gap;
+  for (size_t e = 0; e < solid.edge_count; ++e) {
+    bounds.push_back(bound_edge(solid, e, faces, cylinder));
+    known = max(known, bounds[e].at_middle);
+  }
+  for (const float sign : {1.0f, -1.0f}) {
+    for (uint32_t e = 0; e < solid.edge_count; ++e) {
+      const EdgeBound& bound = bounds[e];
+      if (!(bound.most > known && (sign > 0 ? bound.is_in_front : bound.is_behind))) continue;
+      search_edge(arc_of_edge(solid, e, cylinder), sign, e, best);
+    }
+  }
 }
 
 // Where the height over no face exceeds `most`.
@@ -190,10 +247,9 @@ inline bool is_on_edge(const Solid& solid, size_t e, const Vector3f& p) {
 // whatever the search has found. A contact is sure if its points lie on both shapes: then no other
 // direction has a wider gap, if they are apart. Where a face and a cap lie on each other, the point
 // of the one shape may lie beside the other, and the point of the other does not.
-//   n                   the direction of the way
-//   height              how far the solid reaches along n
-//   is_blunt            as is_blunt(); of others a point must lie clearly within, seen from the
-//   face furthest()          the corner at that height is_within(p, most)  as is_within() above
+//   n: the direction of the way; height: how far the solid reaches along it
+//   is_blunt: as is_blunt(); of others a point must lie clearly within, seen from the face
+//   furthest(): the corner at that height; is_within(p, most): as is_within() above
 template <class Furthest, class IsWithin>
 SolidContact contact_at(const Solid& solid, const PlacedCylinder& cylinder, const SolidWay& way,
                         const Vector3f& n, float height, bool is_blunt, const Furthest& furthest,
@@ -232,6 +288,19 @@ inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cyli
   const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
   return contact_at(solid, cylinder, way, n, height_along(solid, n), is_blunt, furthest,
                     is_in_solid);
+}
+
+// If the shapes are apart and the contact along the best way of faces, caps and corners is sure, no
+// edge has a better one.
+inline SolidContact find_solid_contact(const Solid& solid, const PlacedCylinder& cylinder,
+                                       bool is_blunt) {
+  SolidWay way = find_simple_way(solid, cylinder);
+  if (way.gap > 0) {
+    const SolidContact contact = contact_along(solid, cylinder, way, is_blunt);
+    if (contact.is_sure) return contact;
+  }
+  search_edges(solid, cylinder, way);
+  return contact_along(solid, cylinder, way, is_blunt);
 }
 
 // Whether the point between those of the contact lies in both by more than rounding.

@@ -82,59 +82,49 @@ class SolidCylinders {
     shapes_ = &shapes;
   }
 
-  // Lanes that are not valid have no sure contact.
+  // Lanes that are not valid, or whose solids have no kernel, have no sure contact.
   HWY_INLINE SolidContactLanes find(Mask valid) {
     const uint64_t lanes = bits_of(FloatTag(), valid);
-    const SolidWaySteps& steps = solid_way_steps_in_lanes();
-    std::array<scalar::SolidWay, kLanes> ways;
-    WaitingArcs waiting;
     for (size_t i = 0; i < kLanes; ++i) {
       if (!(lanes >> i & 1)) continue;
       const auto shape = (*shapes_)[i];
-      solid_[i].emplace(shape);
-      const Solid& solid = solid_[i]->view();
-      is_blunt_[i] = scalar::is_blunt(shape);
-      if (scalar::has_kernel(solid)) {
-        steps.begin(solid, cylinder(i), static_cast<uint8_t>(i), ways.data(), waiting);
-      } else {
-        solid_[i].reset();
-      }
+      const Solid& solid = solid_[i].emplace(shape).view();
+      if (!scalar::has_kernel(solid)) continue;
+      SolidCylinderPair& pair = pairs_[count_];
+      lane_[count_++] = i;
+      pair.solid = &solid;
+      pair.cylinder = {middle_.lane(i), axis_.lane(i), half_length_[i], rim_[i]};
+      pair.is_blunt = scalar::is_blunt(shape);
     }
-    steps.finish(ways.data(), waiting);
-    for (size_t i = 0; i < kLanes; ++i) {
-      scalar::SolidContact& contact = contact_[i];
-      contact = {0, {0, 0, 0}, {0, 0, 0}, false};
-      if (solid_[i]) contact = steps.contact(solid_[i]->view(), cylinder(i), ways[i], is_blunt_[i]);
-    }
+    find_solid_contacts_in_lanes()(pairs_.data(), count_);
     return contacts();
   }
 
   // The lanes whose shapes overlap, but have no common point that float32 is sure of.
   HWY_NOINLINE Mask unproven() const {
-    return hn::Ne(lanes_from([&](size_t i) {
-                    if (!solid_[i] || contact_[i].separation > 0) return 0.0f;
-                    const Solid& solid = solid_[i]->view();
-                    return has_common_point(solid, cylinder(i), contact_[i]) ? 0.0f : 1.0f;
-                  }),
-                  splat(0));
+    HWY_ALIGN float flags[kLanes] = {};
+    for (size_t k = 0; k < count_; ++k) {
+      const SolidCylinderPair& pair = pairs_[k];
+      if (pair.contact.separation > 0) continue;
+      if (!has_common_point(*pair.solid, pair.cylinder, pair.contact)) flags[lane_[k]] = 1;
+    }
+    return hn::Gt(hn::Load(FloatTag(), flags), splat(0));
   }
 
  private:
-  scalar::PlacedCylinder cylinder(size_t i) const {
-    return {middle_.lane(i), axis_.lane(i), half_length_[i], rim_[i]};
-  }
-
   HWY_INLINE SolidContactLanes contacts() const {
-    const auto column = [&](const auto& number) HWY_ATTR {
-      return lanes_from([&](size_t i) { return number(contact_[i]); });
-    };
-    using C = const scalar::SolidContact&;
-    return {column([](C c) { return c.separation; }),
-            {column([](C c) { return c.normal.x(); }), column([](C c) { return c.normal.y(); }),
-             column([](C c) { return c.normal.z(); })},
-            {column([](C c) { return c.on_solid.x(); }), column([](C c) { return c.on_solid.y(); }),
-             column([](C c) { return c.on_solid.z(); })},
-            hn::Ne(column([](C c) { return c.is_sure ? 1.0f : 0.0f; }), splat(0))};
+    HWY_ALIGN float number[8][kLanes] = {};
+    for (size_t k = 0; k < count_; ++k) {
+      const auto& [separation, n, p, is_sure] = pairs_[k].contact;
+      const float numbers[] = {separation, n.x(), n.y(), n.z(),
+                               p.x(),      p.y(), p.z(), is_sure ? 1.0f : 0.0f};
+      for (size_t c = 0; c < 8; ++c) number[c][lane_[k]] = numbers[c];
+    }
+    const auto column = [&](size_t c) HWY_ATTR { return hn::Load(FloatTag(), number[c]); };
+    return {column(0),
+            {column(1), column(2), column(3)},
+            {column(4), column(5), column(6)},
+            hn::Gt(column(7), splat(0))};
   }
 
   const Solids* shapes_;
@@ -142,8 +132,10 @@ class SolidCylinders {
   HWY_ALIGN float half_length_[kLanes];
   HWY_ALIGN float rim_[kLanes];
   std::array<std::optional<SolidOf<typename Solids::Shape>>, kLanes> solid_;
-  std::array<bool, kLanes> is_blunt_;
-  std::array<scalar::SolidContact, kLanes> contact_;
+  // Those that have a kernel, and their lanes.
+  std::array<SolidCylinderPair, kLanes> pairs_;
+  std::array<size_t, kLanes> lane_;
+  size_t count_ = 0;
 };
 
 }  // namespace carom::HWY_NAMESPACE

@@ -39,8 +39,7 @@ Separation solid_cylinder_separation(const S& shape, const CylinderShape<float>&
   const PlacedCylinder placed = {rotate_back(turn, pose.d),
                                  rotate_back(turn, rotation_of(pose.b).z), cylinder.half_length,
                                  cylinder.radius};
-  const SolidContact contact =
-      contact_along(solid, placed, find_solid_way(solid, placed), is_blunt(shape));
+  const SolidContact contact = find_solid_contact(solid, placed, is_blunt(shape));
   return separation_of(contact, turn, {0, 0, 0}, cylinder.rounding, pose.d);
 }
 
