@@ -213,8 +213,7 @@ class BoxWaySearch {
     std::array<ArcPlaceLanes, scalar::kQuarterPlaces.size()> places;
     for (size_t i = 0; i < places.size(); ++i) places[i] = in_all_lanes(scalar::kQuarterPlaces[i]);
     ArcStartsLanes starts(edge.arc, places);
-    climb_arc(edge.arc, splat(1), starts.front);
-    climb_arc(edge.arc, splat(-1), starts.back);
+    climb_arcs({edge.arc, splat(1), starts.front}, {edge.arc, splat(-1), starts.back});
     for (const ArcFoundLanes* found : {&starts.front, &starts.back}) {
       const F3 way = {splat(0), hn::Mul(found->n.u, u_sign), hn::Mul(found->n.v, v_sign)};
       // Back to the frame of the box: of an edge along y, y is the first coordinate.

@@ -150,13 +150,29 @@ HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, F sign, ArcPlaceLanes& n) {
   return hn::Le(hn::Abs(moved), splat(kLastArc));
 }
 
-// `sign`: the side of each lane.
-HWY_INLINE void climb_arc(const EdgeArcLanes& arc, F sign, ArcFoundLanes& best) {
-  for (size_t i = 0; i < kSolidArcSteps; ++i) best.has_ended = step_on_arc(arc, sign, best.n);
-  best.n = unit(best.n);
-  const F none = splat(-FLT_MAX);
-  const Mask is_there = hn::And(hn::Gt(best.gap, none), arc.holds(best.n));
-  best.gap = hn::IfThenElse(is_there, arc.gap(best.n), none);
+// A search on the side of one cap; `sign`: that of each lane.
+struct ArcClimb {
+  const EdgeArcLanes& arc;
+  F sign;
+  ArcFoundLanes& best;
+
+  HWY_INLINE void step() const { best.has_ended = step_on_arc(arc, sign, best.n); }
+  HWY_INLINE void end() const {
+    best.n = unit(best.n);
+    const F none = splat(-FLT_MAX);
+    const Mask is_there = hn::And(hn::Gt(best.gap, none), arc.holds(best.n));
+    best.gap = hn::IfThenElse(is_there, arc.gap(best.n), none);
+  }
+};
+
+// Two searches at once: one alone would wait for its own roots and quotients.
+HWY_INLINE void climb_arcs(const ArcClimb& one, const ArcClimb& other) {
+  for (size_t i = 0; i < kSolidArcSteps; ++i) {
+    one.step();
+    other.step();
+  }
+  one.end();
+  other.end();
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -196,40 +196,45 @@ HWY_INLINE std::array<ArcPlaceLanes, 5> places_on(const EdgeArcLanes& arc) {
   return {middle, before, behind, between(left, before), between(behind, arc.end)};
 }
 
-// The best way of each of a vector of edges, on the side of one cap each.
-struct EdgeWayLanes {
+// The search for the best way of each of a vector of edges, on the side of one cap each.
+struct EdgeSearch {
+  EdgeArcLanes arc;
+  F sign;
   ArcFoundLanes found;
-  Mask is_crossing;
 
-  HWY_INLINE EdgeWayLanes(const EdgeArcLanes& arc, F sign) {
-    const F one = splat(1), side = hn::CopySign(one, arc.u_axis);
-    const ArcPlaceLanes across =
-        unit(ArcPlaceLanes{hn::Neg(hn::Mul(arc.v_axis, side)), hn::Mul(arc.u_axis, side)});
-    is_crossing = arc.holds(across);
-    const F gap = hn::IfThenElse(is_crossing, arc.gap(across), splat(-FLT_MAX));
+  HWY_INLINE EdgeSearch(const EdgeArcLanes& arcs, F signs) : arc(arcs), sign(signs) {
     const ArcStartsLanes starts(arc, places_on(arc));
     const Mask is_front = hn::Gt(sign, splat(0));
     found = {hn::IfThenElse(is_front, starts.front.gap, starts.back.gap),
              select(is_front, starts.front.n, starts.back.n), no_lanes()};
-    climb_arc(arc, sign, found);
+  }
+  HWY_INLINE ArcClimb climb() { return {arc, sign, found}; }
+
+  // Takes the way across the edge and a side if it is no worse. Returns where it has.
+  HWY_INLINE Mask keep_crossing() {
+    const F side = hn::CopySign(splat(1), arc.u_axis);
+    const ArcPlaceLanes across =
+        unit(ArcPlaceLanes{hn::Neg(hn::Mul(arc.v_axis, side)), hn::Mul(arc.u_axis, side)});
+    const Mask exists = arc.holds(across);
+    const F gap = hn::IfThenElse(exists, arc.gap(across), splat(-FLT_MAX));
     const Mask wider = hn::Gt(found.rank(), gap);
     found.gap = hn::IfThenElse(wider, found.gap, gap);
     found.n = select(wider, found.n, across);
     found.has_ended = hn::Or(found.has_ended, hn::Not(wider));
-    is_crossing = hn::AndNot(wider, is_crossing);
+    return hn::AndNot(wider, exists);
   }
 };
 
-// Numbers of EdgeWayLanes, a lane at a time.
+// What was found, a lane at a time.
 class EdgeWays {
  public:
-  explicit HWY_INLINE EdgeWays(const EdgeWayLanes& way) {
+  explicit HWY_INLINE EdgeWays(EdgeSearch& search) {
     const FloatTag tag;
-    hn::Store(way.found.gap, tag, gap_);
-    hn::Store(way.found.n.u, tag, u_);
-    hn::Store(way.found.n.v, tag, v_);
-    crossing_ = bits_of(tag, way.is_crossing);
-    ended_ = bits_of(tag, way.found.has_ended);
+    crossing_ = bits_of(tag, search.keep_crossing());
+    hn::Store(search.found.gap, tag, gap_);
+    hn::Store(search.found.n.u, tag, u_);
+    hn::Store(search.found.n.v, tag, v_);
+    ended_ = bits_of(tag, search.found.has_ended);
   }
   SolidWay way(size_t lane, uint32_t edge) const {
     using Feature = SolidWay::Feature;
@@ -247,17 +252,30 @@ class EdgeWays {
   uint64_t crossing_, ended_;
 };
 
-// Searches all edges that wait.
+// The edges that wait from `first` on.
+HWY_INLINE EdgeSearch search_from(const WaitingEdges& waiting, size_t first) {
+  const F sign = hn::BitCast(FloatTag(), hn::LoadU(IndexTag(), waiting.sign.data() + first));
+  const size_t count = std::min(kLanes, waiting.count - first);
+  return EdgeSearch(
+      load_arcs(waiting, waiting.pair.data() + first, waiting.edge.data() + first, count), sign);
+}
+
+HWY_INLINE void keep_ways(EdgeSearch& search, const WaitingEdges& waiting, size_t first,
+                          SolidCylinderPair* pairs) {
+  const EdgeWays found(search);
+  for (size_t i = first; i < std::min(first + kLanes, waiting.count); ++i) {
+    pairs[waiting.pair[i]].way.keep_if_wider(found.way(i - first, waiting.edge[i]));
+  }
+}
+
+// Searches all edges that wait, two vectors at a time.
 inline void search_waiting(SolidCylinderPair* pairs, WaitingEdges& waiting) {
-  for (size_t i = 0; i < waiting.count; i += kLanes) {
-    const uint32_t* const pair = waiting.pair.data() + i;
-    const uint32_t* const edge = waiting.edge.data() + i;
-    const size_t count = std::min(kLanes, waiting.count - i);
-    const F sign = hn::BitCast(FloatTag(), hn::LoadU(IndexTag(), waiting.sign.data() + i));
-    const EdgeWays found{EdgeWayLanes(load_arcs(waiting, pair, edge, count), sign)};
-    for (size_t lane = 0; lane < count; ++lane) {
-      pairs[pair[lane]].way.keep_if_wider(found.way(lane, edge[lane]));
-    }
+  for (size_t i = 0; i < waiting.count; i += 2 * kLanes) {
+    const size_t next = i + kLanes < waiting.count ? i + kLanes : i;
+    EdgeSearch one = search_from(waiting, i), other = search_from(waiting, next);
+    climb_arcs(one.climb(), other.climb());
+    keep_ways(one, waiting, i, pairs);
+    if (next != i) keep_ways(other, waiting, next, pairs);
   }
   waiting.count = 0;
 }
