@@ -136,13 +136,8 @@ struct EdgeBoundLanes {
     const F sum = hn::Mul(hn::Add(left, right), half);
     at_middle = hn::IfThenElse(is_known, hn::Sub(sum, slack), splat(-FLT_MAX));
     const F end = hn::Add(max(left, right), slack);
-    most = end;
-    // Few arcs of shapes that overlap have a positive end.
-    const Mask may_peak = hn::Gt(end, zero);
-    if (!hn::AllFalse(FloatTag(), may_peak)) {
-      const F peak = peak_of_arc(left, right, cosine, hn::Mul(end, over), end);
-      most = hn::IfThenElse(may_peak, peak, end);
-    }
+    const F peak = peak_of_arc(left, right, cosine, hn::Mul(end, over), end);
+    most = hn::IfThenElse(hn::Gt(end, zero), peak, end);
     most = hn::IfThenElse(is_known, most, splat(FLT_MAX));
   }
 };
@@ -166,16 +161,17 @@ HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, const uint32_t* p
     F unused;
     transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
   };
-  F3 left, right, from;
+  F3 left, right, from, along;
   read([](const Solid& s, size_t e) { return s.plane_record + s.side[0][e]; }, left);
   read([](const Solid& s, size_t e) { return s.plane_record + s.side[1][e]; }, right);
   read([](const Solid& s, size_t e) { return s.point_record + s.end[0][e]; }, from);
+  read([](const Solid& s, size_t e) { return &s.edges[e].direction; }, along);
   const Indices pair = hn::LoadU(IndexTag(), pairs);
   const auto of_cylinder = [&](size_t i)
                                HWY_ATTR { return at_pairs(waiting.cylinder[i].data(), pair); };
   const F3 axis = {of_cylinder(0), of_cylinder(1), of_cylinder(2)};
   const F3 middle = {of_cylinder(3), of_cylinder(4), of_cylinder(5)};
-  const F3 along = unit(cross(left, right)), across = cross(along, left);
+  const F3 across = cross(along, left);
   const F3 way = middle - from * at_pairs(waiting.scale.data(), pair);
   return {dot(way, left),    dot(way, across),
           dot(axis, along),  dot(axis, left),

@@ -55,26 +55,29 @@ struct SolidWay {
 
 // The directions of an edge: along it, along the normal of its left face, and across both.
 struct EdgeFrame {
-  Vector3f along, u, v, right;
+  Vector3f along, u, v;
 
   EdgeFrame(const Solid& solid, size_t e)
-      : u(solid.normal(solid.side[0][e])), right(solid.normal(solid.side[1][e])) {
-    along = unit(cross(u, right));
-    v = cross(along, u);
-  }
-  Vector3f direction(const ArcPlace& n) const { return unit(u * n.u + v * n.v); }
-  EdgeArc arc(const Vector3f& from, const PlacedCylinder& cylinder) const {
-    const Vector3f way = cylinder.middle - from;
-    return {.u_way = dot(way, u),
-            .v_way = dot(way, v),
-            .along = dot(cylinder.axis, along),
-            .u_axis = dot(cylinder.axis, u),
-            .v_axis = dot(cylinder.axis, v),
-            .half_length = cylinder.half_length,
-            .rim = cylinder.rim,
-            .end = {dot(right, u), dot(right, v)}};
-  }
+      : along(solid.edges[e].direction.head<3>()),
+        u(solid.normal(solid.side[0][e])),
+        v(cross(along, u)) {}
+
+  Vector3f direction(const ArcPlace& n) const { return u * n.u + v * n.v; }
 };
+
+inline EdgeArc arc_of_edge(const Solid& solid, size_t e, const PlacedCylinder& cylinder) {
+  const EdgeFrame frame(solid, e);
+  const Vector3f right = solid.normal(solid.side[1][e]);
+  const Vector3f way = cylinder.middle - solid.corner(solid.end[0][e]);
+  return {.u_way = dot(way, frame.u),
+          .v_way = dot(way, frame.v),
+          .along = dot(cylinder.axis, frame.along),
+          .u_axis = dot(cylinder.axis, frame.u),
+          .v_axis = dot(cylinder.axis, frame.v),
+          .half_length = cylinder.half_length,
+          .rim = cylinder.rim,
+          .end = {dot(right, frame.u), dot(right, frame.v)}};
+}
 
 // How far the middle of the cylinder lies in front of each face, and how far its axis leads there.
 struct FaceHeights {
@@ -128,10 +131,6 @@ inline EdgeBound bound_edge(const Solid& solid, size_t e, const FaceHeights& fac
   const float end = max(left, right) + kEdgeBoundSlack;
   const float most = end > 0 ? peak_of_arc(left, right, cosine, end * over, end) : end;
   return {(left + right) * half - kEdgeBoundSlack, most, is_in_front, is_behind};
-}
-
-inline EdgeArc arc_of_edge(const Solid& solid, size_t e, const PlacedCylinder& cylinder) {
-  return EdgeFrame(solid, e).arc(solid.corner(solid.end[0][e]), cylinder);
 }
 
 inline ArcPlace middle_of(const EdgeArc& arc) { return unit(ArcPlace{1 + arc.end.u, arc.end.v}); }
@@ -230,7 +229,7 @@ inline Vector3f furthest_corner(const Solid& solid, const Vector3f& n) {
 // Where an edge and the line of the cylinder's side cross, seen along n.
 inline Vector3f crossing_on_edge(const Solid& solid, const PlacedCylinder& cylinder, size_t e,
                                  const Vector3f& n) {
-  const Vector3f from = solid.corner(solid.end[0][e]), along = EdgeFrame(solid, e).along;
+  const Vector3f from = solid.corner(solid.end[0][e]), along = solid.edges[e].direction.head<3>();
   const Vector3f across = cross(cylinder.axis, n);
   return from + along * (dot(cylinder.middle - from, across) / dot(along, across));
 }
