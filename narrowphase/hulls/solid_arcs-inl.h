@@ -150,13 +150,12 @@ HWY_INLINE F at_pairs(const float* table, Indices pairs) {
   return hn::TableLookupLanes(hn::LoadU(tag, table), hn::IndicesFromVec(tag, within));
 }
 
-// One edge a lane, edges[lane] of the pair pairs[lane]. Lanes from `count` on may hold any edge.
-HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, const uint32_t* pairs,
-                                  const uint32_t* edges, size_t count) {
+// The arcs of the edges that wait from `first` on. Lanes behind the last one hold that again.
+HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, size_t first) {
   const auto read = [&](const auto& record_of, F3& v) HWY_ATTR {
     const auto record = [&](size_t lane) {
-      const size_t i = std::min(lane, count - 1);
-      return record_of(*waiting.solid[pairs[i]], edges[i]);
+      const size_t i = std::min(first + lane, waiting.count - 1);
+      return record_of(*waiting.solid[waiting.pair(i)], waiting.edge(i));
     };
     F unused;
     transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
@@ -166,7 +165,8 @@ HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, const uint32_t* p
   read([](const Solid& s, size_t e) { return s.plane_record + s.side[1][e]; }, right);
   read([](const Solid& s, size_t e) { return s.point_record + s.end[0][e]; }, from);
   read([](const Solid& s, size_t e) { return &s.edges[e].direction; }, along);
-  const Indices pair = hn::LoadU(IndexTag(), pairs);
+  const Indices items = hn::LoadU(IndexTag(), waiting.item.data() + first);
+  const Indices pair = hn::ShiftRight<WaitingEdges::kPairBits>(items);
   const auto of_cylinder = [&](size_t i)
                                HWY_ATTR { return at_pairs(waiting.cylinder[i].data(), pair); };
   const F3 axis = {of_cylinder(0), of_cylinder(1), of_cylinder(2)};
@@ -248,19 +248,17 @@ class EdgeWays {
   uint64_t crossing_, ended_;
 };
 
-// The edges that wait from `first` on.
 HWY_INLINE EdgeSearch search_from(const WaitingEdges& waiting, size_t first) {
-  const F sign = hn::BitCast(FloatTag(), hn::LoadU(IndexTag(), waiting.sign.data() + first));
-  const size_t count = std::min(kLanes, waiting.count - first);
-  return EdgeSearch(
-      load_arcs(waiting, waiting.pair.data() + first, waiting.edge.data() + first, count), sign);
+  const Indices items = hn::LoadU(IndexTag(), waiting.item.data() + first);
+  const F sign = hn::CopySign(splat(1), hn::BitCast(FloatTag(), items));
+  return EdgeSearch(load_arcs(waiting, first), sign);
 }
 
 HWY_INLINE void keep_ways(EdgeSearch& search, const WaitingEdges& waiting, size_t first,
                           SolidCylinderPair* pairs) {
   const EdgeWays found(search);
   for (size_t i = first; i < std::min(first + kLanes, waiting.count); ++i) {
-    pairs[waiting.pair[i]].way.keep_if_wider(found.way(i - first, waiting.edge[i]));
+    pairs[waiting.pair(i)].way.keep_if_wider(found.way(i - first, waiting.edge(i)));
   }
 }
 
@@ -293,15 +291,12 @@ inline void leave_edges(const Solid& solid, const FaceHeights& faces,
     hn::Store(hn::IfThenElse(bound.is_behind, most, none), tag, bounds[1] + i);
   }
   known = hn::MaxOfLanes(tag, known);
-  for (const size_t side : {0, 1}) {
-    const Indices sign = hn::BitCast(bits, splat(side == 0 ? 1.0f : -1.0f));
+  for (const uint32_t side : {0u, 1u}) {
+    Indices items = hn::Iota(bits, side << 31 | pair << WaitingEdges::kPairBits);
     for (size_t i = 0; i < solid.edge_count; i += kLanes) {
       const Mask is_open = hn::Gt(hn::Load(tag, bounds[side] + i), known);
-      const size_t at = waiting.count;
-      compress_store(hn::Iota(bits, static_cast<uint32_t>(i)), is_open, waiting.edge.data() + at);
-      hn::StoreU(sign, bits, waiting.sign.data() + at);
-      hn::StoreU(hn::Set(bits, pair), bits, waiting.pair.data() + at);
-      waiting.count += hn::CountTrue(tag, is_open);
+      waiting.count += compress_store(items, is_open, waiting.item.data() + waiting.count);
+      items = hn::Add(items, hn::Set(bits, uint32_t{kLanes}));
     }
   }
 }

@@ -10,18 +10,19 @@
 
 namespace carom {
 
-// Edges of a vector of pairs that wait for a search on the side of one cap. What lies behind the
-// last is not looked at.
+// Edges of a vector of pairs that wait for a search on the side of one cap.
 struct WaitingEdges {
   static constexpr size_t kPairs = 16;
   static constexpr size_t kMost = 3 * Solid::kMostEdges;
   static constexpr size_t kPadding = 16;  // a vector is stored as a whole
 
-  using Column = std::array<uint32_t, kMost + kPadding>;
-
-  Column edge, pair;
-  Column sign;  // of the cap: bits of floats
+  // The edge, in the low bits, the pair and, as the sign of a float, the cap.
+  static constexpr int kPairBits = 16;
+  std::array<uint32_t, kMost + kPadding> item;
   size_t count = 0;
+
+  uint32_t edge(size_t i) const { return item[i] & 0xffff; }
+  uint32_t pair(size_t i) const { return item[i] >> kPairBits & (kPairs - 1); }
 
   // Of pairs. Numbers of cylinders: axis, middle, half length, rim.
   std::array<const Solid*, kPairs> solid;
