@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "narrowphase/features/edge_arc-inl.h"
 #include "narrowphase/features/solid_contact-inl.h"
@@ -254,22 +255,31 @@ HWY_INLINE EdgeSearch search_from(const WaitingEdges& waiting, size_t first) {
   return EdgeSearch(load_arcs(waiting, first), sign);
 }
 
+// Looks only at those that beat what their pair had before.
 HWY_INLINE void keep_ways(EdgeSearch& search, const WaitingEdges& waiting, size_t first,
-                          SolidCylinderPair* pairs) {
+                          const float* ranks, SolidCylinderPair* pairs) {
   const EdgeWays found(search);
-  for (size_t i = first; i < std::min(first + kLanes, waiting.count); ++i) {
-    pairs[waiting.pair(i)].way.keep_if_wider(found.way(i - first, waiting.edge(i)));
+  const Indices items = hn::LoadU(IndexTag(), waiting.item.data() + first);
+  const F before = at_pairs(ranks, hn::ShiftRight<WaitingEdges::kPairBits>(items));
+  const Mask exists = hn::FirstN(FloatTag(), waiting.count - first);
+  const Mask is_better = hn::And(exists, hn::Gt(search.found.rank(), before));
+  for (uint64_t lanes = bits_of(FloatTag(), is_better); lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+    pairs[waiting.pair(first + lane)].way.keep_if_wider(
+        found.way(lane, waiting.edge(first + lane)));
   }
 }
 
 // Searches all edges that wait, two vectors at a time.
-inline void search_waiting(SolidCylinderPair* pairs, WaitingEdges& waiting) {
+inline void search_waiting(SolidCylinderPair* pairs, size_t pair_count, WaitingEdges& waiting) {
+  HWY_ALIGN float ranks[WaitingEdges::kPairs];
+  for (size_t i = 0; i < pair_count; ++i) ranks[i] = pairs[i].way.rank();
   for (size_t i = 0; i < waiting.count; i += 2 * kLanes) {
     const size_t next = i + kLanes < waiting.count ? i + kLanes : i;
     EdgeSearch one = search_from(waiting, i), other = search_from(waiting, next);
     climb_arcs(one.climb(), other.climb());
-    keep_ways(one, waiting, i, pairs);
-    if (next != i) keep_ways(other, waiting, next, pairs);
+    keep_ways(one, waiting, i, ranks, pairs);
+    if (next != i) keep_ways(other, waiting, next, ranks, pairs);
   }
   waiting.count = 0;
 }

@@ -141,15 +141,23 @@ Vector3f furthest_corner(const Solid& solid, const Vector3f& n) {
   return solid.corner(best.first());
 }
 
+float height_along(const Solid& solid, const Vector3f& n) {
+  const F scale = splat(solid.scale);
+  const F3 way = in_all_lanes(n);
+  F most = splat(-FLT_MAX);
+  for (size_t i = 0; i < solid.point_count; i += kLanes) {
+    most = max(most, dot(way, load3(solid.point, i, scale)));
+  }
+  return hn::GetLane(hn::MaxOfLanes(FloatTag(), most));
+}
+
 void find_contact(SolidCylinderPair& pair) {
   const Solid& solid = *pair.solid;
   const Vector3f n = scalar::direction_of(solid, pair.way);
-  float along, against;
-  reach_along(solid, n, along, against);
   const auto is_in_solid = [&](const Vector3f& p, float most) { return is_within(solid, p, most); };
   const auto furthest = [&] { return furthest_corner(solid, n); };
-  pair.contact = scalar::contact_at(solid, pair.cylinder, pair.way, n, along, pair.is_blunt,
-                                    furthest, is_in_solid);
+  pair.contact = scalar::contact_at(solid, pair.cylinder, pair.way, n, height_along(solid, n),
+                                    pair.is_blunt, furthest, is_in_solid);
 }
 
 void wait(const SolidCylinderPair& pair, size_t place, const FaceHeights& heights,
@@ -168,7 +176,7 @@ void find_solid_contacts(SolidCylinderPair* pairs, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     SolidCylinderPair& pair = pairs[i];
     if (waiting.count + 2 * pair.solid->edge_count > WaitingEdges::kMost) {
-      search_waiting(pairs, waiting);
+      search_waiting(pairs, i, waiting);
     }
     const CylinderOfPair cylinder(pair.cylinder);
     FaceHeights heights;
@@ -180,7 +188,7 @@ void find_solid_contacts(SolidCylinderPair* pairs, size_t count) {
     }
     if (!pair.is_found) wait(pair, i, heights, cylinder, waiting);
   }
-  search_waiting(pairs, waiting);
+  search_waiting(pairs, count, waiting);
   for (size_t i = 0; i < count; ++i) {
     if (!pairs[i].is_found) find_contact(pairs[i]);
   }
