@@ -50,17 +50,20 @@ HWY_INLINE F3 load3(const std::array<const float*, 3>& column, size_t i, F scale
   return v * scale;
 }
 
-// Four floats a lane, at record(lane).
-template <class Record>
-struct RecordsOf {
-  const Record& record;
+// Four floats a lane.
+struct RecordLanes {
+  std::array<const float*, kLanes> record;
 
 #if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const {
-    return hn::LoadU(Quad(), record(lane)->data());
-  }
+  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record[lane]); }
 #endif
-  HWY_INLINE float component(size_t lane, size_t c) const { return (*record(lane))[c]; }
+  HWY_INLINE float component(size_t lane, size_t c) const { return record[lane][c]; }
+  HWY_INLINE F3 first_three() const {
+    F3 v;
+    F unused;
+    transpose_records(*this, v, unused);
+    return v;
+  }
 };
 
 // How far the middle of a cylinder lies in front of each face, and how far its axis leads there.
@@ -153,19 +156,18 @@ HWY_INLINE F at_pairs(const float* table, Indices pairs) {
 
 // The arcs of the edges that wait from `first` on. Lanes behind the last one hold that again.
 HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, size_t first) {
-  const auto read = [&](const auto& record_of, F3& v) HWY_ATTR {
-    const auto record = [&](size_t lane) {
-      const size_t i = std::min(first + lane, waiting.count - 1);
-      return record_of(*waiting.solid[waiting.pair(i)], waiting.edge(i));
-    };
-    F unused;
-    transpose_records(RecordsOf<decltype(record)>{record}, v, unused);
-  };
-  F3 left, right, from, along;
-  read([](const Solid& s, size_t e) { return s.plane_record + s.side[0][e]; }, left);
-  read([](const Solid& s, size_t e) { return s.plane_record + s.side[1][e]; }, right);
-  read([](const Solid& s, size_t e) { return s.point_record + s.end[0][e]; }, from);
-  read([](const Solid& s, size_t e) { return &s.edges[e].direction; }, along);
+  RecordLanes left_plane, right_plane, first_point, direction;
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    const size_t i = std::min(first + lane, waiting.count - 1);
+    const Solid& solid = *waiting.solid[waiting.pair(i)];
+    const size_t e = waiting.edge(i);
+    left_plane.record[lane] = solid.plane_record[solid.side[0][e]].data();
+    right_plane.record[lane] = solid.plane_record[solid.side[1][e]].data();
+    first_point.record[lane] = solid.point_record[solid.end[0][e]].data();
+    direction.record[lane] = solid.edges[e].direction.data();
+  }
+  const F3 left = left_plane.first_three(), right = right_plane.first_three();
+  const F3 from = first_point.first_three(), along = direction.first_three();
   const Indices items = hn::LoadU(IndexTag(), waiting.item.data() + first);
   const Indices pair = hn::ShiftRight<WaitingEdges::kPairBits>(items);
   const auto of_cylinder = [&](size_t i)
