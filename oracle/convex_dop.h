@@ -43,6 +43,8 @@ class ConvexDop {
   ConvexDop(const Dop& dop, bool widened);
 
   void find_corners();
+  // By doubles, which spare most meetings of planes the long way.
+  bool is_clearly_outside(size_t i, size_t j, size_t k) const;
 
   Wide length_of_limits(size_t i, size_t j, size_t k) const;
 

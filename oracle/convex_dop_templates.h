@@ -41,13 +41,29 @@ void ConvexDop<R>::find_corners() {
     for (size_t j = 0; j < i; ++j) {
       for (size_t k = 0; k < j; ++k) {
         const Wide det = dot(normal_[i], cross(normal_[j], normal_[k]));
-        if (det == 0) continue;
+        if (det == 0 || is_clearly_outside(i, j, k)) continue;
         const WideVec at = meeting<Wide>(i, j, k);
         const Wide size = length(at) + length_of_limits(i, j, k);
         if (is_inside(at, size)) add_corner(at, size, meeting<R>(i, j, k));
       }
     }
   }
+}
+
+template <class R>
+bool ConvexDop<R>::is_clearly_outside(size_t i, size_t j, size_t k) const {
+  constexpr double kRounding = 1e-9;  // a million times that of doubles
+  const auto at = meeting<double>(i, j, k);
+  const double size = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z) +
+                      static_cast<double>(length_of_limits(i, j, k));
+  for (size_t p = 0; p < normal_.size(); ++p) {
+    const auto& [x, y, z] = normal_[p];
+    const double height = static_cast<double>(x) * at.x + static_cast<double>(y) * at.y +
+                          static_cast<double>(z) * at.z;
+    const auto limit = static_cast<double>(limit_[p]);
+    if (height - limit > kRounding * (size + std::fabs(limit))) return true;
+  }
+  return false;
 }
 
 template <class R>

@@ -181,8 +181,8 @@ void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) 
     middle -= out * (static_cast<double>(found.low) + size);
   }
   const auto gap = [&](double reach) {
-    const Pose there{middle + way * reach, pair.pose_b.orientation};
-    const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, there);
+    const Eigen::Vector3d by = middle + way * reach - pair.pose_b.position;
+    const SupportPair placed = start.with_b_moved(vec3_as<long double>(by));
     return static_cast<double>(placed.distance(1e-4L * size).low);
   };
   double low = 0, high = (start.has_halfspace() ? 40 : 4) * scale;

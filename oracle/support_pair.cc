@@ -37,6 +37,15 @@ SupportShape round_support(const Round& shape, const Pose& pose, const Vec& at) 
       shape.rounding};
 }
 
+SupportShape support_of(const std::shared_ptr<const ConvexShape<>>& solved) {
+  const auto furthest = [solved](const Vec& way) {
+    Vec best = solved->points.front();
+    for (const Vec& p : solved->points) best = dot(way, p) > dot(way, best) ? p : best;
+    return best;
+  };
+  return {furthest, solved->radius};
+}
+
 double reach_of(const Cylinder& c) { return std::hypot(c.radius, c.half_length) + c.rounding; }
 double reach_of(const Cone& c) { return std::hypot(c.radius, c.half_length) + c.rounding; }
 double reach_of(const Ellipsoid& e) { return double{e.semi_axes.maxCoeff()} + e.rounding; }
@@ -49,46 +58,50 @@ SupportShape support_shape(const Shape& shape, const Pose& pose,
   if (const auto* c = std::get_if<Cylinder>(&shape)) return round_support(*c, pose, at);
   if (const auto* c = std::get_if<Cone>(&shape)) return round_support(*c, pose, at);
   if (const auto* e = std::get_if<Ellipsoid>(&shape)) return round_support(*e, pose, at);
-  const auto solved = std::make_shared<ConvexShape<>>(shape, pose, relative_to);
-  const auto furthest = [solved](const Vec& way) {
-    Vec best = solved->points.front();
-    for (const Vec& p : solved->points) best = dot(way, p) > dot(way, best) ? p : best;
-    return best;
-  };
-  return {furthest, solved->radius};
+  return support_of(std::make_shared<ConvexShape<>>(shape, pose, relative_to));
 }
 
 SupportPair::Side SupportPair::side_of(const Shape& shape, const Pose& pose,
                                        const Eigen::Vector3d& relative_to) {
-  const auto solved = [&] { return ConvexShape<>(shape, pose, relative_to); };
   if (std::holds_alternative<Halfspace>(shape)) {
-    const ConvexShape<> plane = solved();
+    const ConvexShape<> plane(shape, pose, relative_to);
     const auto distance = [plane](const Vec& p) {
       return std::fabs(dot(plane.normal, p) - plane.offset);
     };
     return {{}, distance, Plane{plane.normal, plane.offset}, plane.bounding_radius};
   }
-  const SupportShape support = support_shape(shape, pose, relative_to);
   const Vec at = vec3_as<long double>(pose.position) - vec3_as<long double>(relative_to);
   const auto round = [&](const auto& own) -> Side {
     const auto distance = [turn = Rotation<long double>(pose.orientation), at, own](const Vec& p) {
       return *round_surface_distance(own, turn.back(p - at));
     };
-    return {support, distance, {}, reach_of(own)};
+    return {round_support(own, pose, at), distance, {}, reach_of(own)};
   };
   if (const auto* c = std::get_if<Cylinder>(&shape)) return round(*c);
   if (const auto* c = std::get_if<Cone>(&shape)) return round(*c);
   if (const auto* e = std::get_if<Ellipsoid>(&shape)) return round(*e);
-  const auto distance = [whole = std::make_shared<ConvexShape<>>(solved())](const Vec& p) {
-    return std::fabs(signed_distance(*whole, p));
-  };
-  return {support, distance, {}, ConvexShape<>(shape).bounding_radius};
+  const auto solved = std::make_shared<const ConvexShape<>>(shape, pose, relative_to);
+  const auto distance = [solved](const Vec& p) { return std::fabs(signed_distance(*solved, p)); };
+  return {support_of(solved), distance, {}, solved->bounding_radius};
 }
 
 SupportPair::SupportPair(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                          const Pose& pose_b)
     : a_(side_of(shape_a, pose_a, pose_a.position)),
       b_(side_of(shape_b, pose_b, pose_a.position)) {}
+
+SupportPair SupportPair::with_b_moved(const Vec& by) const {
+  SupportPair moved = *this;
+  moved.b_.distance = [distance = b_.distance, by](const Vec& p) { return distance(p - by); };
+  if (moved.b_.plane) {
+    moved.b_.plane->offset += dot(moved.b_.plane->normal, by);
+  } else {
+    moved.b_.shape.furthest = [furthest = b_.shape.furthest, by](const Vec& way) {
+      return furthest(way) + by;
+    };
+  }
+  return moved;
+}
 
 long double SupportPair::gap_over(const Plane& plane, const SupportShape& shape) {
   return (dot(plane.normal, shape.furthest(-plane.normal)) - shape.radius) - plane.offset;

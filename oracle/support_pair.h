@@ -22,6 +22,9 @@ class SupportPair {
 
   SupportPair(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b);
 
+  // The same shapes, which need not be solved again.
+  SupportPair with_b_moved(const Vec& by) const;
+
   // See separation_by_supports(). Exact with a half-space.
   SeparationBounds separation(long double tolerance, size_t most_triangles = 4'000'000) const;
   // The separation of separate shapes, between bounds that are nearer than `tolerance`. Of others

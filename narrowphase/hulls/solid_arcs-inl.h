@@ -72,25 +72,34 @@ struct FaceHeights {
   HWY_ALIGN float axis[Solid::kMostFaces + kLanes];
 };
 
-// Entries of a table of faces. Wide vectors look them up in registers.
-HWY_INLINE F at_faces(const float* table, size_t count, const uint8_t* faces) {
-  if constexpr (kLanes >= 8) {
-    const FloatTag tag;
-    const IntTag integers;
-    const I face = hn::PromoteTo(integers, hn::LoadU(hn::Rebind<uint8_t, IntTag>(), faces));
-    const auto within = hn::And(face, hn::Set(integers, static_cast<int32_t>(kLanes) - 1));
-    const auto place = hn::IndicesFromVec(tag, within);
-    F found = hn::TableLookupLanes(hn::Load(tag, table), place);
-    for (size_t i = kLanes; i < count; i += kLanes) {
-      const auto is_behind = hn::Gt(face, hn::Set(integers, static_cast<int32_t>(i) - 1));
-      found = hn::IfThenElse(hn::RebindMask(tag, is_behind),
-                             hn::TableLookupLanes(hn::Load(tag, table + i), place), found);
+// The heights at some faces. Wide vectors look them up in registers.
+struct HeightsOfFaces {
+  F middle, axis;
+
+  HWY_INLINE HeightsOfFaces(const FaceHeights& heights, size_t count, const uint8_t* faces) {
+    if constexpr (kLanes >= 8) {
+      const FloatTag tag;
+      const IntTag integers;
+      const I face = hn::PromoteTo(integers, hn::LoadU(hn::Rebind<uint8_t, IntTag>(), faces));
+      const auto within = hn::And(face, hn::Set(integers, static_cast<int32_t>(kLanes) - 1));
+      const auto place = hn::IndicesFromVec(tag, within);
+      const auto look_up = [&](const float* table) HWY_ATTR {
+        return hn::TableLookupLanes(hn::Load(tag, table), place);
+      };
+      middle = look_up(heights.middle);
+      axis = look_up(heights.axis);
+      for (size_t i = kLanes; i < count; i += kLanes) {
+        const auto is_behind =
+            hn::RebindMask(tag, hn::Gt(face, hn::Set(integers, static_cast<int32_t>(i) - 1)));
+        middle = hn::IfThenElse(is_behind, look_up(heights.middle + i), middle);
+        axis = hn::IfThenElse(is_behind, look_up(heights.axis + i), axis);
+      }
+    } else {
+      middle = lanes_from([&](size_t lane) { return heights.middle[faces[lane]]; });
+      axis = lanes_from([&](size_t lane) { return heights.axis[faces[lane]]; });
     }
-    return found;
-  } else {
-    return lanes_from([&](size_t lane) { return table[faces[lane]]; });
   }
-}
+};
 
 // The length of the slope in the plane of the arc, by its parts along both ends, where that is a
 // direction of the arc, and otherwise `end`. Of a narrow arc rounding leaves no digits of it: then
@@ -119,24 +128,22 @@ struct EdgeBoundLanes {
                             const CylinderOfPair& cylinder, size_t first) {
     const F zero = splat(0), one = splat(1);
     const F slack = splat(kEdgeBoundSlack), least_cosine = splat(kEdgeBoundCosine);
-    const auto at = [&](const float* table, size_t side) HWY_ATTR {
-      return at_faces(table, solid.face_count, solid.side[side] + first);
-    };
-    const F axis_l = at(faces.axis, 0), axis_r = at(faces.axis, 1);
-    is_in_front = hn::Gt(max(axis_l, axis_r), zero);
-    is_behind = hn::Or(hn::Lt(min(axis_l, axis_r), zero), hn::Not(is_in_front));
+    const HeightsOfFaces l(faces, solid.face_count, solid.side[0] + first);
+    const HeightsOfFaces r(faces, solid.face_count, solid.side[1] + first);
+    is_in_front = hn::Gt(max(l.axis, r.axis), zero);
+    is_behind = hn::Or(hn::Lt(min(l.axis, r.axis), zero), hn::Not(is_in_front));
     const F cosine = hn::LoadU(FloatTag(), solid.half_cosine + first);
     const F over = hn::Div(one, max(cosine, least_cosine)), half = hn::Mul(splat(0.5f), over);
-    const F x = hn::Mul(hn::Add(axis_l, axis_r), half);
+    const F x = hn::Mul(hn::Add(l.axis, r.axis), half);
     const F off = hn::Sub(one, hn::Mul(x, x));
     const Mask is_known = hn::And(hn::Ge(off, splat(kEdgeBoundSine)), hn::Ge(cosine, least_cosine));
     const F bend = hn::Div(cylinder.rim, hn::Sqrt(off));
     const F reach = hn::CopySign(cylinder.half_length, x);
-    const auto slope = [&](F middle, F axis) HWY_ATTR {
-      return hn::Sub(hn::Sub(middle, hn::Mul(reach, axis)),
-                     hn::Mul(hn::Sub(cosine, hn::Mul(x, axis)), bend));
+    const auto slope = [&](const HeightsOfFaces& face) HWY_ATTR {
+      return hn::Sub(hn::Sub(face.middle, hn::Mul(reach, face.axis)),
+                     hn::Mul(hn::Sub(cosine, hn::Mul(x, face.axis)), bend));
     };
-    const F left = slope(at(faces.middle, 0), axis_l), right = slope(at(faces.middle, 1), axis_r);
+    const F left = slope(l), right = slope(r);
     const F sum = hn::Mul(hn::Add(left, right), half);
     at_middle = hn::IfThenElse(is_known, hn::Sub(sum, slack), splat(-FLT_MAX));
     const F end = hn::Add(max(left, right), slack);

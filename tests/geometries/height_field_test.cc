@@ -224,7 +224,7 @@ TEST(HeightField, SearchesFindWhatATreeFinds) {
     const Mesh made = mesh_like(*field);
     const MeshGeometry& mesh = geometry(made);
     const double half = n / 2.0;
-    for (int k = 0; k < 300; ++k) {
+    for (uint32_t k = 0; k < rounds(300); ++k) {
       const double size = std::pow(10, random.uniform(-2, 2.5));
       Double3 middle, its_half;
       for (size_t axis = 0; axis < 3; ++axis) {

@@ -67,7 +67,7 @@ TEST(MeasuredPairs, HaveNoManifoldsWhereSeparateOnesAreAskedFor) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
     const std::vector<TestPair> pairs =
-        make_kind_pairs(convex_families()[0], kinds, PositionType::float32, 40);
+        make_kind_pairs(convex_families()[0], kinds, PositionType::float32, rounds_of_pairs(40));
     Call call = call_with(PositionType::float32);
     call.detail = Detail::manifold;
     call.measured = Measured::separate;
