@@ -10,6 +10,7 @@
 
 #include "geometries/height_search.h"
 #include "tests/support/height_fields.h"
+#include "tests/support/rounds.h"
 #include "tests/support/special_floats.h"
 
 namespace carom::test {

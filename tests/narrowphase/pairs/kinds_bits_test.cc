@@ -84,7 +84,8 @@ TEST(KindsBits, DopsWithTheirCorners) {
     for (const KindPair& kinds : supported_kind_pairs()) {
       if (kinds.a != ShapeKind::dop && kinds.b != ShapeKind::dop) continue;
       SCOPED_TRACE(std::string(family.name) + ", " + name(kinds));
-      std::vector<TestPair> pairs = make_kind_pairs(family, kinds, PositionType::float32, rounds(6));
+      std::vector<TestPair> pairs =
+          make_kind_pairs(family, kinds, PositionType::float32, rounds(6));
       const auto results = reference_results(pairs, PositionType::float32);
       for (TestPair& pair : pairs) {
         keep_corners(pair.a.shape);
@@ -231,7 +232,8 @@ TEST(KindsBits, Layouts) {
 TEST(KindsBits, OrientationsAreTheIdentityWhereAbsent) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
-    std::vector<TestPair> pairs = make_kind_pairs({.name = ""}, kinds, PositionType::float32, rounds_of_pairs(40));
+    std::vector<TestPair> pairs =
+        make_kind_pairs({.name = ""}, kinds, PositionType::float32, rounds_of_pairs(40));
     for (TestPair& pair : pairs) pair.a.orientation.setIdentity();
     Call call;
     call.layout_a.orientation_stride = 0;
