@@ -35,6 +35,12 @@ HWY_INLINE ArcPlaceLanes unit(const ArcPlaceLanes& n) {
   return {hn::Mul(n.u, over), hn::Mul(n.v, over)};
 }
 
+HWY_INLINE ArcPlaceLanes nearer_to_unit(const ArcPlaceLanes& n) {
+  const F squared = hn::Add(hn::Mul(n.u, n.u), hn::Mul(n.v, n.v));
+  const F by = hn::Sub(splat(1.5f), hn::Mul(splat(0.5f), squared));
+  return {hn::Mul(n.u, by), hn::Mul(n.v, by)};
+}
+
 struct EdgeArcLanes {
   F u_way, v_way, along, u_axis, v_axis, half_length, rim;
   ArcPlaceLanes end;
@@ -139,10 +145,8 @@ HWY_INLINE Mask step_on_arc(const EdgeArcLanes& arc, F sign, ArcPlaceLanes& n) {
                                 hn::CopySign(splat(kShortArc), slope));
   const F most = min(splat(kLongTurn), hn::Mul(splat(kRimStep), off));
   const F turn = clamp(step, hn::Neg(most), most);
-  ArcPlaceLanes next = {hn::Sub(n.u, hn::Mul(n.v, turn)), hn::Add(n.v, hn::Mul(n.u, turn))};
-  const F squared = hn::Add(hn::Mul(next.u, next.u), hn::Mul(next.v, next.v));
-  const F to_unit = hn::Sub(splat(1.5f), hn::Mul(splat(0.5f), squared));
-  next = {hn::Mul(next.u, to_unit), hn::Mul(next.v, to_unit)};
+  ArcPlaceLanes next =
+      nearer_to_unit({hn::Sub(n.u, hn::Mul(n.v, turn)), hn::Add(n.v, hn::Mul(n.u, turn))});
   next = select(hn::Lt(next.v, zero), {one, zero}, next);
   next = select(hn::Lt(arc.before_end(next), zero), arc.end, next);
   const F moved = hn::Sub(hn::Mul(n.u, next.v), hn::Mul(n.v, next.u));
@@ -158,7 +162,7 @@ struct ArcClimb {
 
   HWY_INLINE void step() const { best.has_ended = step_on_arc(arc, sign, best.n); }
   HWY_INLINE void end() const {
-    best.n = unit(best.n);
+    best.n = nearer_to_unit(best.n);
     const F none = splat(-FLT_MAX);
     const Mask is_there = hn::And(hn::Gt(best.gap, none), arc.holds(best.n));
     best.gap = hn::IfThenElse(is_there, arc.gap(best.n), none);

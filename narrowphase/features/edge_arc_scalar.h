@@ -46,6 +46,12 @@ inline ArcPlace unit(const ArcPlace& n) {
   return {n.u * over, n.v * over};
 }
 
+// Of a vector that is nearly one already: what is off is squared.
+inline ArcPlace nearer_to_unit(const ArcPlace& n) {
+  const float by = 1.5f - 0.5f * (n.u * n.u + n.v * n.v);
+  return {n.u * by, n.v * by};
+}
+
 // The gap at the middle of an arc, and the most that it may be on the whole arc.
 struct ArcBound {
   float at_middle, most;
@@ -113,9 +119,7 @@ inline bool step_on_arc(const EdgeArc& arc, float sign, ArcPlace& n) {
   const float step = curve < 0 ? -slope / curve : std::copysign(kShortArc, slope);
   const float most = min(kLongTurn, kRimStep * off);
   const float turn = clamp(step, -most, most);
-  ArcPlace next = {n.u - n.v * turn, n.v + n.u * turn};
-  const float to_unit = 1.5f - 0.5f * (next.u * next.u + next.v * next.v);
-  next = {next.u * to_unit, next.v * to_unit};
+  ArcPlace next = nearer_to_unit({n.u - n.v * turn, n.v + n.u * turn});
   if (next.v < 0) next = {1, 0};
   if (next.u * arc.end.v - next.v * arc.end.u < 0) next = arc.end;
   const float moved = n.u * next.v - n.v * next.u;
@@ -126,7 +130,7 @@ inline bool step_on_arc(const EdgeArc& arc, float sign, ArcPlace& n) {
 // The best on the side of one cap, from a start. What ends at an end is left to the faces.
 inline ArcFound climb_arc(const EdgeArc& arc, float sign, ArcFound best) {
   for (size_t i = 0; i < kSolidArcSteps; ++i) best.has_ended = step_on_arc(arc, sign, best.n);
-  best.n = unit(best.n);
+  best.n = nearer_to_unit(best.n);
   best.gap = best.gap > -kLargest && arc.holds(best.n) ? arc.gap(best.n) : -kLargest;
   return best;
 }

@@ -189,17 +189,23 @@ HWY_INLINE EdgeArcLanes load_arcs(const WaitingEdges& waiting, size_t first) {
           of_cylinder(7),    {dot(right, left), dot(right, across)}};
 }
 
-HWY_INLINE ArcPlaceLanes middle_of(const EdgeArcLanes& arc) {
-  return unit(ArcPlaceLanes{hn::Add(splat(1), arc.end.u), arc.end.v});
-}
-
 HWY_INLINE std::array<ArcPlaceLanes, 5> places_on(const EdgeArcLanes& arc) {
-  const auto between = [](const ArcPlaceLanes& m, const ArcPlaceLanes& n) HWY_ATTR {
-    return unit(ArcPlaceLanes{hn::Add(m.u, n.u), hn::Add(m.v, n.v)});
+  const F half_lanes = splat(0.5f);
+  const auto half_of = [&](F cosine) HWY_ATTR {
+    const F sum = hn::Add(half_lanes, hn::Mul(half_lanes, cosine));
+    return hn::Sqrt(max(sum, splat(kLeastWay)));
   };
-  const ArcPlaceLanes left = {splat(1), splat(0)}, middle = middle_of(arc);
-  const ArcPlaceLanes before = between(left, middle), behind = between(middle, arc.end);
-  return {middle, before, behind, between(left, before), between(behind, arc.end)};
+  const auto between = [](const ArcPlaceLanes& m, const ArcPlaceLanes& n, F over) HWY_ATTR {
+    return ArcPlaceLanes{hn::Mul(hn::Add(m.u, n.u), over), hn::Mul(hn::Add(m.v, n.v), over)};
+  };
+  const F half = half_of(arc.end.u), quarter = half_of(half), eighth = half_of(quarter);
+  const F of_half = hn::Div(half_lanes, half), of_quarter = hn::Div(half_lanes, quarter);
+  const F of_eighth = hn::Div(half_lanes, eighth);
+  const ArcPlaceLanes left = {splat(1), splat(0)}, middle = between(left, arc.end, of_half);
+  const ArcPlaceLanes before = between(left, middle, of_quarter);
+  const ArcPlaceLanes behind = between(middle, arc.end, of_quarter);
+  return {middle, before, behind, between(left, before, of_eighth),
+          between(behind, arc.end, of_eighth)};
 }
 
 // The search for the best way of each of a vector of edges, on the side of one cap each.

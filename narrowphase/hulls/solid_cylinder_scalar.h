@@ -133,16 +133,19 @@ inline EdgeBound bound_edge(const Solid& solid, size_t e, const FaceHeights& fac
   return {(left + right) * half - kEdgeBoundSlack, most, is_in_front, is_behind};
 }
 
-inline ArcPlace middle_of(const EdgeArc& arc) { return unit(ArcPlace{1 + arc.end.u, arc.end.v}); }
-
-// By halving.
+// By halving. The cosine of half an angle makes the sum of two directions a unit vector.
 inline std::array<ArcPlace, 5> places_on(const EdgeArc& arc) {
-  const auto between = [](const ArcPlace& m, const ArcPlace& n) {
-    return unit(ArcPlace{m.u + n.u, m.v + n.v});
+  const auto half_of = [](float cosine) { return std::sqrt(max(0.5f + 0.5f * cosine, kLeastWay)); };
+  const auto between = [](const ArcPlace& m, const ArcPlace& n, float over) -> ArcPlace {
+    return {(m.u + n.u) * over, (m.v + n.v) * over};
   };
-  const ArcPlace left{1, 0}, middle = middle_of(arc);
-  const ArcPlace before = between(left, middle), behind = between(middle, arc.end);
-  return {middle, before, behind, between(left, before), between(behind, arc.end)};
+  const float half = half_of(arc.end.u), quarter = half_of(half), eighth = half_of(quarter);
+  const float of_half = 0.5f / half, of_quarter = 0.5f / quarter, of_eighth = 0.5f / eighth;
+  const ArcPlace left{1, 0}, middle = between(left, arc.end, of_half);
+  const ArcPlace before = between(left, middle, of_quarter);
+  const ArcPlace behind = between(middle, arc.end, of_quarter);
+  return {middle, before, behind, between(left, before, of_eighth),
+          between(behind, arc.end, of_eighth)};
 }
 
 // Across the edge and a line of the cylinder's side.
