@@ -43,14 +43,17 @@ void run_round(const Batch& batch) {
   run_round_pair(batch, kA, kB);
 }
 template <ShapeKind kA, ShapeKind kB>
-inline constexpr PairKind kRoundPairKind{kA, kB, &run_round<kA, kB>, MorePasses::manifold};
+inline constexpr PairKind kRoundPairKind = [] {
+  constexpr ShapeKind kFirst = comes_after(kA, kB) ? kB : kA;
+  constexpr ShapeKind kSecond = comes_after(kA, kB) ? kA : kB;
+  return PairKind{kFirst, kSecond, &run_round<kFirst, kSecond>, MorePasses::manifold};
+}();
 template <ShapeKind kRound>
-inline constexpr std::array kRoundPairKinds = {
-    kRoundPairKind<ShapeKind::capsule, kRound>,   kRoundPairKind<ShapeKind::aabb, kRound>,
-    kRoundPairKind<ShapeKind::box, kRound>,       kRoundPairKind<ShapeKind::dop, kRound>,
-    kRoundPairKind<ShapeKind::hull, kRound>,      kRoundPairKind<ShapeKind::halfspace, kRound>,
-    kRoundPairKind<ShapeKind::cylinder, kRound>,  kRoundPairKind<ShapeKind::cone, kRound>,
-    kRoundPairKind<kRound, ShapeKind::ellipsoid>, kRoundPairKind<kRound, ShapeKind::triangle>};
+inline constexpr std::array kPairKindsOfRound = {
+    kRoundPairKind<ShapeKind::sphere, kRound>,    kRoundPairKind<ShapeKind::capsule, kRound>,
+    kRoundPairKind<ShapeKind::aabb, kRound>,      kRoundPairKind<ShapeKind::box, kRound>,
+    kRoundPairKind<ShapeKind::dop, kRound>,       kRoundPairKind<ShapeKind::hull, kRound>,
+    kRoundPairKind<ShapeKind::halfspace, kRound>, kRoundPairKind<ShapeKind::triangle, kRound>};
 
 // Whether one of the first `count` kinds of a list is for these shapes.
 template <class List>
@@ -61,25 +64,29 @@ constexpr bool has_pair_kind(const List& list, size_t count, const PairKind& kin
   return false;
 }
 
-// The list, and what else there is of round shapes, each once; how many there are.
-inline constexpr auto kManyPairKinds = [] {
+// The list, and what else there is of these round shapes, each once; how many there are.
+template <ShapeKind... kRounds>
+constexpr auto with_round_pairs() {
+  constexpr size_t kOfEach = kPairKindsOfRound<ShapeKind::cylinder>.size() + sizeof...(kRounds);
   struct {
-    std::array<PairKind, kListedPairKinds.size() + 3 * kRoundPairKinds<ShapeKind::cone>.size()>
-        kinds{};
+    std::array<PairKind, kListedPairKinds.size() + sizeof...(kRounds) * kOfEach> kinds{};
     size_t count = 0;
   } all;
   for (const PairKind& kind : kListedPairKinds) all.kinds[all.count++] = kind;
-  const auto add = [&all](const auto& list) {
-    for (const PairKind& kind : list) {
-      if (kind.a > kind.b || has_pair_kind(all.kinds, all.count, kind)) continue;
-      all.kinds[all.count++] = kind;
-    }
+  const auto add = [&all](const PairKind& kind) {
+    if (!has_pair_kind(all.kinds, all.count, kind)) all.kinds[all.count++] = kind;
   };
-  add(kRoundPairKinds<ShapeKind::cylinder>);
-  add(kRoundPairKinds<ShapeKind::cone>);
-  add(kRoundPairKinds<ShapeKind::ellipsoid>);
+  const auto add_all = [&]<ShapeKind kRound>() {
+    for (const PairKind& kind : kPairKindsOfRound<kRound>) add(kind);
+    (add(kRoundPairKind<kRound, kRounds>), ...);
+  };
+  (add_all.template operator()<kRounds>(), ...);
   return all;
-}();
+}
+
+// All round shapes, as is_round() says.
+inline constexpr auto kManyPairKinds =
+    with_round_pairs<ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid>();
 
 inline constexpr auto kCorePairKinds = [] {
   std::array<PairKind, kManyPairKinds.count> kinds{};
