@@ -13,6 +13,7 @@
 #include "narrowphase/features/box_cylinder_scalar.h"
 #include "narrowphase/features/edge_arc-inl.h"
 #include "narrowphase/features/solid_contact-inl.h"
+#include "simd/compress-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -5,20 +5,16 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/aabb/aabb_cylinder.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/box_cylinder-inl.h"
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-struct AabbCylinder {
+struct AabbCylinder : RoundKernel {
   using A = AabbLanes;
   using B = CylinderLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const AabbLanes& box,
@@ -33,12 +29,7 @@ struct AabbCylinder {
   }
 };
 
-void aabb_cylinder(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::aabb, ShapeKind::cylinder);
-  }
-  run_batch<AabbCylinder>(batch);
-}
+void aabb_cylinder(const Batch& batch) { run_round_kernel<AabbCylinder>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

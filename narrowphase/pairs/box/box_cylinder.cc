@@ -5,20 +5,16 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/box/box_cylinder.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/box_cylinder-inl.h"
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-struct BoxCylinder {
+struct BoxCylinder : RoundKernel {
   using A = BoxLanes;
   using B = CylinderLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const BoxLanes& box,
@@ -31,12 +27,7 @@ struct BoxCylinder {
   }
 };
 
-void box_cylinder(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::box, ShapeKind::cylinder);
-  }
-  run_batch<BoxCylinder>(batch);
-}
+void box_cylinder(const Batch& batch) { run_round_kernel<BoxCylinder>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

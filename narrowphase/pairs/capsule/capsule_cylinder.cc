@@ -5,20 +5,16 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/capsule/capsule_cylinder.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/cylinders-inl.h"
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-struct CapsuleCylinder {
+struct CapsuleCylinder : RoundKernel {
   using A = CapsuleLanes;
   using B = CylinderLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const CapsuleLanes& capsule,
@@ -43,12 +39,7 @@ struct CapsuleCylinder {
   }
 };
 
-void capsule_cylinder(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::capsule, ShapeKind::cylinder);
-  }
-  run_batch<CapsuleCylinder>(batch);
-}
+void capsule_cylinder(const Batch& batch) { run_round_kernel<CapsuleCylinder>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

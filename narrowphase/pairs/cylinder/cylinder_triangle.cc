@@ -5,19 +5,16 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/cylinder/cylinder_triangle.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 #include "narrowphase/pairs/round/solid_cylinder-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-struct CylinderTriangle {
+struct CylinderTriangle : RoundKernel {
   using A = CylinderLanes;
   using B = TriangleLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const CylinderLanes& cylinder,
@@ -36,12 +33,7 @@ struct CylinderTriangle {
   }
 };
 
-void cylinder_triangle(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::cylinder, ShapeKind::triangle);
-  }
-  run_batch<CylinderTriangle>(batch);
-}
+void cylinder_triangle(const Batch& batch) { run_round_kernel<CylinderTriangle>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

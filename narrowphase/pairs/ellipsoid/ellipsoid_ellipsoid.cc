@@ -5,9 +5,8 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/ellipsoid/ellipsoid_ellipsoid.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/ellipsoids-inl.h"
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -22,12 +21,9 @@ HWY_INLINE Mask is_surely_within(const F3& semi_axes, const F3& p) {
                  hn::Lt(dot(share, share), splat(1 - kSureShare)));
 }
 
-struct EllipsoidEllipsoid {
+struct EllipsoidEllipsoid : RoundKernel {
   using A = EllipsoidLanes;
   using B = EllipsoidLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const EllipsoidLanes& a,
@@ -54,12 +50,7 @@ struct EllipsoidEllipsoid {
   }
 };
 
-void ellipsoid_ellipsoid(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::ellipsoid, ShapeKind::ellipsoid);
-  }
-  run_batch<EllipsoidEllipsoid>(batch);
-}
+void ellipsoid_ellipsoid(const Batch& batch) { run_round_kernel<EllipsoidEllipsoid>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

@@ -5,19 +5,16 @@
 #define HWY_TARGET_INCLUDE "narrowphase/pairs/hull/hull_cylinder.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/pairs/manifold_batch.h"
+#include "narrowphase/pairs/round/round_kernel-inl.h"
 #include "narrowphase/pairs/round/solid_cylinder-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-struct HullCylinder {
+struct HullCylinder : RoundKernel {
   using A = HullLanes;
   using B = CylinderLanes;
-  static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
-  static constexpr Columns kColumns = Columns::as_asked;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const HullLanes& hull,
@@ -31,12 +28,7 @@ struct HullCylinder {
   }
 };
 
-void hull_cylinder(const Batch& batch) {
-  if (batch.pass == Pass::manifold) {
-    return run_manifolds_one_by_one(batch, ShapeKind::hull, ShapeKind::cylinder);
-  }
-  run_batch<HullCylinder>(batch);
-}
+void hull_cylinder(const Batch& batch) { run_round_kernel<HullCylinder>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

@@ -4,8 +4,7 @@
 // Source: see narrowphase/hulls/solid_cylinder_scalar.h.
 #pragma once
 
-#include "narrowphase/features/rounded_scalar.h"
-#include "narrowphase/hulls/gjk_scalar.h"
+#include "narrowphase/doubles/convex.h"
 #include "narrowphase/hulls/solid_cylinder_scalar.h"
 
 namespace carom::scalar {

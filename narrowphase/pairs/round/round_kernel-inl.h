@@ -1,0 +1,33 @@
+// What the kernels of round shapes have in common that search for a direction.
+#if defined(CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
+#undef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
+#else
+#define CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
+#endif
+
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/pairs/manifold_batch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct RoundKernel {
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Columns kColumns = Columns::as_asked;
+};
+
+// Their manifolds are found one at a time.
+template <class Kernel>
+void run_round_kernel(const Batch& batch) {
+  if (batch.pass == Pass::manifold) {
+    return run_manifolds_one_by_one(batch, Kernel::A::kKind, Kernel::B::kKind);
+  }
+  run_batch<Kernel>(batch);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
