@@ -46,7 +46,7 @@ inline ArcPlace unit(const ArcPlace& n) {
   return {n.u * over, n.v * over};
 }
 
-// Of a vector that is nearly one already: what is off is squared.
+// The vector is nearly a unit vector already; the result is off by a square of what that is.
 inline ArcPlace nearer_to_unit(const ArcPlace& n) {
   const float by = 1.5f - 0.5f * (n.u * n.u + n.v * n.v);
   return {n.u * by, n.v * by};

@@ -50,8 +50,8 @@ struct Solid {
   size_t edge_count = 0;
   const Edge* edges;                   // not of k-DOPs
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
-  // Of each edge its first and last point, and the cosine of half the angle between its faces'
-  // normals. Not of k-DOPs.
+  // Each edge has a first and a last point, and the cosine of half the angle between its faces'
+  // normals. k-DOPs do not have them here.
   std::array<const uint8_t*, 2> end;
   const float* half_cosine;
   Vector3f middle;     // inside
@@ -68,9 +68,6 @@ struct Solid {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
   }
   PointView points() const { return {point, point_count, padded_count(point_count)}; }
-  PointView normals() const {
-    return {{plane[0], plane[1], plane[2]}, face_count, padded_count(face_count)};
-  }
   Vector3f normal(size_t face) const { return {plane[0][face], plane[1][face], plane[2][face]}; }
   float height(size_t face) const { return plane[3][face] * scale; }
 };

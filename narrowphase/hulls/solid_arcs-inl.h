@@ -119,7 +119,7 @@ HWY_INLINE F peak_of_arc(F left, F right, F cosine, F most, F end) {
   return hn::IfThenElse(is_wide, peak, most);
 }
 
-// Of the edges from `first` on.
+// Bounds the gaps over the edges from `first` on, as bound_edge() does.
 struct EdgeBoundLanes {
   F at_middle, most;
   Mask is_in_front, is_behind;
@@ -237,7 +237,7 @@ struct EdgeSearch {
   }
 };
 
-// What was found, a lane at a time.
+// Yields the ways that a search found, a lane at a time.
 class EdgeWays {
  public:
   explicit HWY_INLINE EdgeWays(EdgeSearch& search) {

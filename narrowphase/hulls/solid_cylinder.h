@@ -24,7 +24,7 @@ struct WaitingEdges {
   uint32_t edge(size_t i) const { return item[i] & 0xffff; }
   uint32_t pair(size_t i) const { return item[i] >> kPairBits & (kPairs - 1); }
 
-  // Of pairs. Numbers of cylinders: axis, middle, half length, rim.
+  // Each pair has these. Numbers of cylinders: axis, middle, half length, rim.
   std::array<const Solid*, kPairs> solid;
   std::array<float, kPairs> scale;
   std::array<std::array<float, kPairs>, 8> cylinder;

@@ -47,58 +47,59 @@ Hull random_hull(Random& random) {
   return oracle::hull_of(points);
 }
 
-TEST(EdgeArcs, BoundsHoldOnTheWholeArc) {
-  Random random(1);
-  size_t tight = 0, edges = 0, unknown = 0;
-  for (int k = 0; k < 200; ++k) {
+// Calls use(arc, bound, best sample, number) for the edges of random hulls beside cylinders that
+// are this far away.
+template <class Use>
+void for_random_arcs(uint64_t seed, int count, double nearest, double furthest, const Use& use) {
+  Random random(seed);
+  for (int k = 0; k < count; ++k) {
     const Hull hull = random_hull(random);
     const SolidHull solid_of_hull(scalar::shape_as<float>(hull));
     const Solid& solid = solid_of_hull.view();
-    const scalar::PlacedCylinder cylinder = random_cylinder(random, random.uniform(0, 3));
+    const double distance = random.uniform(nearest, furthest);
+    const scalar::PlacedCylinder cylinder = random_cylinder(random, distance);
     const scalar::FaceHeights faces(solid, cylinder);
-    for (size_t e = 0; e < solid.edge_count; ++e) {
+    for (uint32_t e = 0; e < solid.edge_count; ++e) {
       const EdgeArc arc = scalar::arc_of_edge(solid, e, cylinder);
-      const float best = best_of(arc, samples_of(arc));
       const scalar::EdgeBound bound = scalar::bound_edge(solid, e, faces, cylinder);
-      EXPECT_GE(bound.most, best);
-      EXPECT_LE(bound.at_middle, best + kRounding);
-      const scalar::ArcBound by_arc(arc, scalar::places_on(arc)[0]);
-      EXPECT_GE(by_arc.most, best - kRounding);
-      EXPECT_LE(by_arc.at_middle, best + kRounding);
-      ++edges;
-      unknown += bound.most == scalar::kLargest;
-      tight += bound.most < best + 0.1f;
+      use(arc, bound, best_of(arc, samples_of(arc)), e);
     }
   }
+}
+
+TEST(EdgeArcs, BoundsHoldOnTheWholeArc) {
+  size_t tight = 0, edges = 0, unknown = 0;
+  for_random_arcs(1, 200, 0, 3,
+                  [&](const EdgeArc& arc, const scalar::EdgeBound& bound, float best, uint32_t) {
+                    EXPECT_GE(bound.most, best);
+                    EXPECT_LE(bound.at_middle, best + kRounding);
+                    const scalar::ArcBound by_arc(arc, scalar::places_on(arc)[0]);
+                    EXPECT_GE(by_arc.most, best - kRounding);
+                    EXPECT_LE(by_arc.at_middle, best + kRounding);
+                    ++edges;
+                    unknown += bound.most == scalar::kLargest;
+                    tight += bound.most < best + 0.1f;
+                  });
   EXPECT_GT(tight, edges / 2);
   EXPECT_GT(unknown, 0u);
   EXPECT_LT(unknown, edges / 10);
 }
 
-// Of separate lines the gap has one maximum on either side of a cap.
+// Where a line is apart from the cylinder, the gap has one maximum on the side of each cap.
 TEST(EdgeArcs, SearchesFindWhatSamplesDo) {
-  Random random(2);
   size_t searched = 0;
-  for (int k = 0; k < 300; ++k) {
-    const Hull hull = random_hull(random);
-    const SolidHull solid_of_hull(scalar::shape_as<float>(hull));
-    const Solid& solid = solid_of_hull.view();
-    const scalar::PlacedCylinder cylinder = random_cylinder(random, random.uniform(1, 4));
-    const scalar::FaceHeights faces(solid, cylinder);
-    for (uint32_t e = 0; e < solid.edge_count; ++e) {
-      const EdgeArc arc = scalar::arc_of_edge(solid, e, cylinder);
-      const float best = best_of(arc, samples_of(arc));
-      const float ends = std::max(arc.gap({1, 0}), arc.gap(arc.end));
-      if (!(best > 0 && best > ends + 1e-4f)) continue;
-      scalar::SolidWay found;
-      for (const float sign : {1.0f, -1.0f}) scalar::search_edge(arc, sign, e, found);
-      if (!found.has_ended) continue;
-      ++searched;
-      EXPECT_GE(found.gap, best - kRounding);
-      EXPECT_EQ(found.gap, arc.gap({found.n.x(), found.n.y()}));
-      EXPECT_LE(found.gap, scalar::bound_edge(solid, e, faces, cylinder).most);
-    }
-  }
+  for_random_arcs(2, 300, 1, 4,
+                  [&](const EdgeArc& arc, const scalar::EdgeBound& bound, float best, uint32_t e) {
+                    const float ends = std::max(arc.gap({1, 0}), arc.gap(arc.end));
+                    if (!(best > 0 && best > ends + 1e-4f)) return;
+                    scalar::SolidWay found;
+                    for (const float sign : {1.0f, -1.0f}) scalar::search_edge(arc, sign, e, found);
+                    if (!found.has_ended) return;
+                    ++searched;
+                    EXPECT_GE(found.gap, best - kRounding);
+                    EXPECT_EQ(found.gap, arc.gap({found.n.x(), found.n.y()}));
+                    EXPECT_LE(found.gap, bound.most);
+                  });
   EXPECT_GT(searched, 500u);
 }
 
