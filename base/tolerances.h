@@ -65,9 +65,10 @@ inline constexpr float kShortAxis = 0x1p-12f;
 // Both points of a contact may lie beside the shapes by this: some roundings of their places.
 inline constexpr float kBesideCore = 0x1p-18f;
 
-// A point of a contact may lie in front of a solid's face by this. At a sharp corner that may be
-// far from the solid: a hull is blunt enough if a ball of this share of its size lies inside, and a
-// triangle if the sine at each of its corners is as great.
+// A point of a contact may lie beside a solid or a cylinder by this: half a dozen roundings of
+// coordinates below four. In front of a face at a sharp corner it may be far from the solid: a hull
+// is blunt enough if a ball of this share of its size lies inside, and a triangle if the sine at
+// each of its corners is as great.
 inline constexpr float kBesideSolid = 0x1p-19f;
 inline constexpr float kBlunt = 0x1p-3f;
 
