@@ -182,7 +182,7 @@ void find_solid_contacts(SolidCylinderPair* pairs, size_t count) {
     FaceHeights heights;
     pair.way = best_way(*pair.solid, pair.cylinder, cylinder, heights);
     pair.is_found = false;
-    if (pair.way.gap > 0) {
+    if (scalar::may_prove(*pair.solid, pair.cylinder, pair.way)) {
       find_contact(pair);
       pair.is_found = pair.contact.is_sure;
     }

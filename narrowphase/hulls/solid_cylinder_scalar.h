@@ -292,12 +292,19 @@ inline SolidContact contact_along(const Solid& solid, const PlacedCylinder& cyli
                     is_in_solid);
 }
 
-// If the shapes are apart and the contact along the best way of faces, caps and corners is sure, no
-// edge has a better one.
+// Whether the contact along a way of faces, caps and corners may prove that the shapes are apart
+// and no edge has a better one. A corner whose point faces no point of the cylinder proves nothing.
+inline bool may_prove(const Solid& solid, const PlacedCylinder& cylinder, const SolidWay& way) {
+  if (!(way.gap > 0)) return false;
+  if (way.feature != SolidWay::Feature::corner) return true;
+  const Vector3f facing = solid.corner(way.place) + way.n * way.gap;
+  return holds(cylinder.core(), facing - cylinder.middle, kBesideSolid);
+}
+
 inline SolidContact find_solid_contact(const Solid& solid, const PlacedCylinder& cylinder,
                                        bool is_blunt) {
   SolidWay way = find_simple_way(solid, cylinder);
-  if (way.gap > 0) {
+  if (may_prove(solid, cylinder, way)) {
     const SolidContact contact = contact_along(solid, cylinder, way, is_blunt);
     if (contact.is_sure) return contact;
   }
