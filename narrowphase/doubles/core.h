@@ -51,11 +51,7 @@ class Core {
   // The furthest point of point i's ellipsoid.
   CoreVector round_point(size_t i, const CoreVector& way) const {
     const CoreVector along = along_axes(way);
-    const double reach = length(along);
-    if (!(reach > 0)) return point(i);
-    const auto& [x, y, z] = roundness_.axis;
-    const CoreVector out = x * (along.x / reach) + y * (along.y / reach) + z * (along.z / reach);
-    return point(i) + out * roundness_.share[i];
+    return round_point(i, along, length(along));
   }
   // How far point i's ellipsoid reaches at most.
   double roundness_of(size_t i) const {
@@ -73,9 +69,10 @@ class Core {
   }
   // The support point of a round core.
   CoreVector furthest_round(const CoreVector& way) const {
-    const double here = reach(way);
+    const CoreVector along = along_axes(way);
+    const double here = length(along);
     const auto height = [&](size_t i) { return dot(way, point(i)) + roundness_.share[i] * here; };
-    return round_point(count_ == 2 && height(1) > height(0) ? 1 : 0, way);
+    return round_point(count_ == 2 && height(1) > height(0) ? 1 : 0, along, here);
   }
   void set(size_t i, const CoreVector& p) {
     values_[i] = p.x;
@@ -108,6 +105,14 @@ class Core {
   CoreVector along_axes(const CoreVector& way) const {
     const auto& [x, y, z] = roundness_.axis;
     return {dot(x, way), dot(y, way), dot(z, way)};
+  }
+
+  // `along`: a way along the axes of the ellipsoid; `reach`: its length.
+  CoreVector round_point(size_t i, const CoreVector& along, double reach) const {
+    if (!(reach > 0)) return point(i);
+    const auto& [x, y, z] = roundness_.axis;
+    const CoreVector out = x * (along.x / reach) + y * (along.y / reach) + z * (along.z / reach);
+    return point(i) + out * roundness_.share[i];
   }
 
   bool is_round_ = false;

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "narrowphase/batch/to_floats-inl.h"
-#include "narrowphase/doubles/plain_gap-inl.h"
+#include "narrowphase/doubles/round_gjk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -78,35 +78,59 @@ class CoreVectorOfRows {
       : rows_(rows), row_(row), cores_(cores) {}
 
   HWY_INLINE void run() {
-    const D3 offset = vector(CoreRows::kOffset);
+    offset_ = vector(CoreRows::kOffset);
     const RotationOf<D> turn_a = rotation(CoreRows::kTurnA), turn_b = rotation(CoreRows::kTurnB);
-    place(rows_.points_a, rows_.count_a, turn_a, splat_zero(), cores_.a, cores_.count_a);
-    place(rows_.points_b, rows_.count_b, turn_b, offset, cores_.b, cores_.count_b);
+    place(rows_.a, turn_a, splat_zero(), cores_.a, cores_.count_a);
+    place(rows_.b, turn_b, offset_, cores_.b, cores_.count_b);
     const D3 middle_a = rotate(turn_a, vector(CoreRows::kMiddleA)) + splat_zero();
-    const D3 middle_b = rotate(turn_b, vector(CoreRows::kMiddleB)) + offset;
+    const D3 middle_b = rotate(turn_b, vector(CoreRows::kMiddleB)) + offset_;
+    const D3 between = middle_b - middle_a;
+    if (rows_.a.is_round || rows_.b.is_round) {
+      run_round({round_core(cores_.a, rows_.a.is_round, CoreRows::kRoundnessA, turn_a),
+                 round_core(cores_.b, rows_.b.is_round, CoreRows::kRoundnessB, turn_b),
+                 hn::Add(number(CoreRows::kRadiusA), number(CoreRows::kRadiusB))},
+                between);
+    } else {
+      run_points(between);
+    }
+  }
+
+ private:
+  HWY_INLINE void run_points(const D3& between) {
     CoreGapLanes gap;
-    find_plain_gap(cores_, middle_b - middle_a, rows_.decides_only, gap);
-    const D radius = number(CoreRows::kRadius), up = number(CoreRows::kUp);
-    const D separation = hn::Sub(gap.size, radius);
+    find_plain_gap(cores_, between, rows_.decides_only, gap);
+    D3 on_a = gap.normal;
+    if (!rows_.decides_only) on_a = meeting_point(cores_, gap);
+    put_gap(gap.size, gap.normal, on_a, gap.is_found, gap.is_proven);
+  }
+
+  HWY_INLINE void run_round(const RoundPairLanes& cores, const D3& between) {
+    const RoundGapLanes gap =
+        find_plain_round_gap(cores, between, {rows_.decides_separate, rows_.decides_only});
+    put_gap(gap.size, gap.normal, gap.of_a, gap.is_found, gap.is_found);
+  }
+
+  // `on_a`: where A without its radius is nearest to B.
+  HWY_INLINE void put_gap(D size, const D3& n, const D3& on_a, DoubleMask is_found,
+                          DoubleMask is_proven) {
+    const D radius_a = number(CoreRows::kRadiusA), up = number(CoreRows::kUp);
+    const D separation = hn::Sub(size, hn::Add(radius_a, number(CoreRows::kRadiusB)));
     if (!rows_.decides_only) {
-      const D3& n = gap.normal;
-      const D3 arm_a = meeting_point(cores_, gap) + n * radius;
+      const D3 arm_a = on_a + n * radius_a;
       put(1, n);
       put(4, arm_a * up);
-      put(7, ((arm_a + n * separation) - offset) * up);
+      put(7, ((arm_a + n * separation) - offset_) * up);
     }
     put(0, rounded_separation(hn::Mul(separation, up)));
-    const DoubleMask is_proven =
-        hn::And(gap.is_proven, hn::Gt(hn::Abs(separation), splat_double(kProvenGap)));
-    const uint64_t found = bits_of(DoubleTag(), gap.is_found);
-    const uint64_t proven = bits_of(DoubleTag(), is_proven);
+    const uint64_t found = bits_of(DoubleTag(), is_found);
+    const uint64_t proven = bits_of(
+        DoubleTag(), hn::And(is_proven, hn::Gt(hn::Abs(separation), splat_double(kProvenGap))));
     for (size_t lane = 0; lane < kDoubleLanes; ++lane) {
       rows_.is_found[row_ + lane] = found >> lane & 1;
       rows_.is_unsure[row_ + lane] = !(proven >> lane & 1);
     }
   }
 
- private:
   static HWY_INLINE D3 splat_zero() {
     const D zero = hn::Zero(DoubleTag());
     return {zero, zero, zero};
@@ -129,16 +153,14 @@ class CoreVectorOfRows {
     put(answer, v.x), put(answer + 1, v.y), put(answer + 2, v.z);
   }
 
-  HWY_INLINE void place(const std::array<const float*, CoreRows::kMost>& first,
-                        const std::array<uint32_t, CoreRows::kMost>& counts,
-                        const RotationOf<D>& turn, const D3& offset, HullPointLanes& points,
-                        LaneNumber& count) {
+  HWY_INLINE void place(const CoreRows::Side& side, const RotationOf<D>& turn, const D3& offset,
+                        HullPointLanes& points, LaneNumber& count) {
     PointRecords records;
     for (size_t lane = 0; lane < kDoubleLanes; ++lane) {
-      records.first[lane] = first[row_ + lane];
-      records.points[lane] = counts[row_ + lane];
+      records.first[lane] = side.points[row_ + lane];
+      records.points[lane] = side.count[row_ + lane];
       records.most = std::max(records.most, records.points[lane]);
-      count.lane[lane] = static_cast<double>(counts[row_ + lane]);
+      count.lane[lane] = static_cast<double>(side.count[row_ + lane]);
     }
     points.count = records.most;
     for (size_t i = 0; i < records.most; ++i) {
@@ -146,19 +168,34 @@ class CoreVectorOfRows {
     }
   }
 
+  // `column`: the first of the roundness.
+  HWY_INLINE RoundCoreLanes round_core(const HullPointLanes& points, bool is_round, size_t column,
+                                       const RotationOf<D>& turn) const {
+    if (!is_round) return {&points, false, {}, {}};
+    const D zero = hn::Zero(DoubleTag());
+    const D3 lengths = vector(column);
+    return {&points,
+            true,
+            {rotate(turn, {lengths.x, zero, zero}), rotate(turn, {zero, lengths.y, zero}),
+             rotate(turn, {zero, zero, lengths.z})},
+            {number(column + 3), number(column + 4)}};
+  }
+
   CoreRows& rows_;
   const size_t row_;
   CorePairLanes& cores_;
+  D3 offset_;
 };
 
 // Places up to a whole vector repeat the last row.
 void fill_vector(CoreRows& rows, size_t end) {
+  const size_t last = rows.count - 1;
   for (size_t row = rows.count; row < end; ++row) {
-    for (auto& column : rows.column) column[row] = column[rows.count - 1];
-    rows.points_a[row] = rows.points_a[rows.count - 1];
-    rows.points_b[row] = rows.points_b[rows.count - 1];
-    rows.count_a[row] = rows.count_a[rows.count - 1];
-    rows.count_b[row] = rows.count_b[rows.count - 1];
+    for (auto& column : rows.column) column[row] = column[last];
+    for (CoreRows::Side* side : {&rows.a, &rows.b}) {
+      side->points[row] = side->points[last];
+      side->count[row] = side->count[last];
+    }
   }
 }
 

@@ -14,26 +14,36 @@ struct CoreRows {
   static constexpr size_t kMost = 64;  // whole vectors of every width
 
   // The first column of each number: B - A in scaled units and world axes, both orientations, a
-  // point inside of each core (metres, before it is turned), the radius of A in scaled units, and
-  // the powers of two that scale metres to those units and back. B has no radius.
+  // point inside of each core (metres, before it is turned), the radii in scaled units, and the
+  // powers of two that scale metres to those units and back. Of round cores: three half axes of the
+  // ellipsoid (metres, along the axes before they are turned), and the shares of both points.
   enum Column : size_t {
     kOffset = 0,
     kTurnA = 3,
     kTurnB = 7,
     kMiddleA = 11,
     kMiddleB = 14,
-    kRadius = 17,
-    kDown = 18,
-    kUp = 19,
-    kColumns = 20,
+    kRadiusA = 17,
+    kRadiusB = 18,
+    kDown = 19,
+    kUp = 20,
+    kRoundnessA = 21,
+    kRoundnessB = 26,
+    kColumns = 31,
+  };
+
+  // Points of the cores, as the point inside: records of four floats, one to kMostPointsOfDoubles.
+  struct Side {
+    bool is_round = false;  // all rows are, or none is: an ellipsoid lies about each point
+    std::array<const float*, kMost> points;
+    std::array<uint32_t, kMost> count;
   };
 
   size_t count = 0;
   bool decides_only = false;
+  bool decides_separate = false;  // of round cores: less than their distance will do
   alignas(64) std::array<std::array<double, kMost>, kColumns> column;
-  // Points of the cores, as the point inside: records of four floats, one to kMostPointsOfDoubles.
-  std::array<const float*, kMost> points_a, points_b;
-  std::array<uint32_t, kMost> count_a, count_b;
+  Side a, b;
 
   // Separation, normal from A to B, arm_a and arm_b from the bodies' positions, in metres and world
   // axes, rounded once; the separation alone where the decision alone is wanted.
@@ -45,7 +55,8 @@ struct CoreRows {
 
 // Finds the answers of up to kMost rows of valid bodies; on any thread. They have the bits of the
 // scalar form (scalar::core_separation()) on every instruction set, which finds more: of gaps
-// find_plain_gap() alone, and of contact locations the first round of scalar::meeting_point().
+// find_plain_gap() or find_plain_round_gap() alone, and of contact locations without a round core
+// the first round of scalar::meeting_point().
 using FindCoreGaps = void (*)(CoreRows& rows);
 FindCoreGaps find_core_gaps();
 

@@ -40,7 +40,9 @@ inline bool is_plain_face(const NearestPoint::Corners& corners) {
 }
 
 inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
-  if (a.is_round() || b.is_round()) return find_round_gap(a, b, test.furthest);
+  if (a.is_round() || b.is_round()) {
+    return find_round_gap(a, b, test.furthest, {test.decides_only, test.decides_only});
+  }
   const FurthestPoint furthest = test.furthest;
   const PlainGjk plain(a, b, furthest);
   if (CoreGap gap; find_plain_gap(a, b, plain, furthest, test.decides_only, gap)) return gap;

@@ -90,17 +90,30 @@ inline void make_core(const BoxShape<double>& box, const Quaternion<double>& q,
   core.radius = box.rounding;
 }
 
+// `middle`: of the points, without the offset.
 template <class Points>
-void make_core_of_points(const Points& points, const Vector3d& offset, Core& core) {
+void make_core_of_points(const Points& points, const Vector3d& middle, const Vector3d& offset,
+                         Core& core) {
   core.resize(points.size());
-  Vector3d sum = Vector3d::Zero();
-  for (size_t i = 0; i < points.size(); ++i) {
-    core.set(i, core_vector(points[i] + offset));
-    sum += points[i];
-  }
+  for (size_t i = 0; i < points.size(); ++i) core.set(i, core_vector(points[i] + offset));
   core.pad();
   core.radius = 0;
-  core.middle = core_vector(sum / static_cast<double>(points.size()) + offset);
+  core.middle = core_vector(middle + offset);
+}
+
+template <class Points>
+Vector3d middle_of_points(const Points& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < points.size(); ++i) sum += points[i];
+  return sum / static_cast<double>(points.size());
+}
+inline Vector3d middle_of(const TriangleShape<double>& triangle) {
+  return middle_of_points(triangle.corners);
+}
+
+template <class Points>
+void make_core_of_points(const Points& points, const Vector3d& offset, Core& core) {
+  make_core_of_points(points, middle_of_points(points), offset, core);
 }
 
 inline void make_core(const TriangleShape<double>& triangle, const Quaternion<double>& q,
@@ -111,7 +124,7 @@ inline void make_core(const TriangleShape<double>& triangle, const Quaternion<do
   const Rotation<double> turn = rotation_of(q);
   std::array<Vector3d, 3> corners;
   for (size_t i = 0; i < 3; ++i) corners[i] = rotate(turn, triangle.corners[i]);
-  make_core_of_points(corners, offset, core);
+  make_core_of_points(corners, rotate(turn, middle_of(triangle)), offset, core);
 }
 
 inline void make_core(const DopShape<double>& dop, const Quaternion<double>& q,

@@ -247,16 +247,27 @@ class WayOutSearch {
   void set_face(uint16_t face, const std::array<uint16_t, 3>& corner) {
     const CoreVector &p = corners_[corner[0]], &q = corners_[corner[1]], &r = corners_[corner[2]];
     const CoreVector u = q - p, v = r - p, n = cross(u, v);
-    const double area = length(n);
-    const bool has_area = area > kWithoutArea * (length(u) * length(v));
+    const double squared = dot(n, n), area = std::sqrt(squared);
+    const bool has_area = squared > (kWithoutArea * kWithoutArea) * (dot(u, u) * dot(v, v));
     faces_[face].corner = corner;
     faces_[face].is_seen = false;
     faces_[face].normal = has_area ? n * (1 / area) : CoreVector{0, 0, 0};
     height_[face] = has_area ? dot(faces_[face].normal, p) : HUGE_VAL;
   }
 
+  // The first of the least heights. The least of every fourth comes first, since these minima do
+  // not wait for each other.
   size_t nearest_face() const {
-    return static_cast<size_t>(std::min_element(height_.begin(), height_.end()) - height_.begin());
+    std::array<double, 4> least;
+    least.fill(HUGE_VAL);
+    size_t i = 0;
+    for (; i + 4 <= height_.size(); i += 4) {
+      for (size_t k = 0; k < 4; ++k) least[k] = std::min(least[k], height_[i + k]);
+    }
+    for (; i < height_.size(); ++i) least[0] = std::min(least[0], height_[i]);
+    const double of_all = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    const double* const first = std::find(height_.begin(), height_.end(), of_all);
+    return first == height_.end() ? 0 : static_cast<size_t>(first - height_.begin());
   }
 
   // Replaces all faces that the point sees, `first` among them. False if there is no room, or if

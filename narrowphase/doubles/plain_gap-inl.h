@@ -129,10 +129,9 @@ HWY_INLINE void find_nearest_gap(const PlainGjkLanes& gjk, CoreGapLanes& out) {
 // As scalar::Portal.
 class PortalLanes {
  public:
-  HWY_INLINE explicit PortalLanes(const PlainGjkLanes& gjk) {
-    const std::array<D3, 4> corner = {gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last};
+  HWY_INLINE explicit PortalLanes(const std::array<D3, 4>& corner) {
     squared_ = splat_double(HUGE_VAL);
-    behind_ = p_ = q_ = r_ = gjk.last;
+    behind_ = p_ = q_ = r_ = corner[3];
     for (size_t i = 0; i < 4; ++i) {
       const D3 &a = corner[(i + 1) % 4], &b = corner[(i + 2) % 4], &c = corner[(i + 3) % 4];
       const D3 n = cross(b - a, c - a);
@@ -208,7 +207,7 @@ HWY_INLINE void find_plain_gap(const CorePairLanes& cores, const D3& between, bo
   const PlainGjkLanes gjk(cores, between);
   find_nearest_gap(gjk, out);
   if (hn::AllFalse(DoubleTag(), gjk.is_around)) return;
-  PortalLanes portal(gjk);
+  PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
   DoubleMask is_open = gjk.is_around;
   if (decides_only) {
     const D squared = portal.squared_height();

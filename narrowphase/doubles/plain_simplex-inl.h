@@ -39,8 +39,10 @@ struct PlainNearestLanes {
 template <size_t kPlaces = 3>
 class PlainSearch {
  public:
-  HWY_INLINE PlainSearch(const std::array<D3, 3>& corner, Places used, const D3& last)
-      : last_(last), zero_(hn::Zero(DoubleTag())) {
+  // `sliver`: as that of scalar::PlainNearest.
+  HWY_INLINE PlainSearch(const std::array<D3, 3>& corner, Places used, const D3& last,
+                         double sliver = kSliverSquared)
+      : last_(last), zero_(hn::Zero(DoubleTag())), sliver_(sliver) {
     best_ = {last, dot(last, last), places(0), no_lanes_of<D>(), no_lanes_of<D>()};
     search(corner, used);
   }
@@ -95,8 +97,8 @@ class PlainSearch {
     const DoubleMask is_over =
         hn::Gt(min(min(of_p, of_q), hn::Sub(squared_normal, hn::Add(of_p, of_q))), zero_);
     const D share = hn::Div(height, squared_normal);
-    const DoubleMask is_sliver = hn::Not(hn::Gt(
-        squared_normal, hn::Mul(splat_double(kSliverSquared), hn::Mul(p.squared, q.squared))));
+    const DoubleMask is_sliver = hn::Not(
+        hn::Gt(squared_normal, hn::Mul(splat_double(sliver_), hn::Mul(p.squared, q.squared))));
     keep(is_over, normal * share, hn::Mul(share, height), places(kept), is_sliver);
     return {normal, height};
   }
@@ -152,6 +154,7 @@ class PlainSearch {
 
   const D3 last_;
   const D zero_;
+  const double sliver_;
   PlainNearestLanes best_;
 };
 

@@ -50,8 +50,9 @@ class PlainNearest {
   bool is_around = false;   // zero is surely inside the tetrahedron
   bool is_unclear = false;  // rounding decides
 
-  PlainNearest(const PlainSimplex& simplex, const CoreVector& last)
-      : point(last), squared(dot(last, last)), last_(last) {
+  // `sliver`: the squared sine between the sides of a triangle below which rounding decides.
+  PlainNearest(const PlainSimplex& simplex, const CoreVector& last, double sliver = kSliverSquared)
+      : point(last), squared(dot(last, last)), last_(last), sliver_(sliver) {
     std::array<Side, 3> side;
     for (size_t i = 0; i < 3; ++i) side[i] = side_to(simplex, i);
     const Plane pq = try_triangle(side[0], side[1], 0b011);
@@ -95,7 +96,7 @@ class PlainNearest {
     q.towards = max(q.towards, of_p);
     const bool is_over = min(min(of_p, of_q), squared_normal - (of_p + of_q)) > 0;
     const double share = height / squared_normal;
-    const bool is_sliver = !(squared_normal > kSliverSquared * (p.squared * q.squared));
+    const bool is_sliver = !(squared_normal > sliver_ * (p.squared * q.squared));
     if (is_over) keep(normal * share, share * height, places, is_sliver);
     return {normal, height};
   }
@@ -134,6 +135,7 @@ class PlainNearest {
   }
 
   CoreVector last_;
+  double sliver_;
 };
 
 }  // namespace carom::scalar

@@ -7,6 +7,7 @@
 
 #include "narrowphase/doubles/core_gap.h"
 #include "narrowphase/doubles/penetration_search.h"
+#include "narrowphase/doubles/round_gjk.h"
 
 namespace carom::scalar {
 
@@ -77,9 +78,24 @@ class RingSearch {
   WayOut& best_;
 };
 
+// What the careful search for the depth starts from: the corners around zero, or where a careful
+// search for the distance ends.
+inline NearestWay start_of_round_depth(const Core& a, const Core& b, const RoundGjk& gjk,
+                                       FurthestPoint furthest) {
+  if (gjk.end != RoundGjk::End::around) return nearest_round_way(a, b, furthest);
+  const auto& [p, q, r] = gjk.simplex.corner;
+  const auto& [of_p, of_q, of_r] = gjk.of_a.corner;
+  return {.way = {0, 0, 0},
+          .corners = {p, q, r, gjk.last.point},
+          .of_a = {of_p, of_q, of_r, gjk.last.of_a}};
+}
+
 // One of the cores is round.
-inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthest) {
-  const NearestWay nearest = nearest_round_way(a, b, furthest);
+inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthest,
+                              const RoundGoal& goal) {
+  const RoundGjk gjk(a, b, furthest, goal);
+  if (CoreGap gap; find_plain_round_gap(gjk, goal, gap)) return gap;
+  const NearestWay nearest = start_of_round_depth(a, b, gjk, furthest);
   const double distance = std::sqrt(dot(nearest.way, nearest.way));
   const double parted = distance > kTouchingCores ? nearest.gap / distance : -HUGE_VAL;
   // Rounding may have ended GJK too early, at corners of nearly flat shapes.
@@ -108,7 +124,7 @@ inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthe
   }
   return {.size = out.gap,
           .normal = out.normal,
-          .is_flat = out.is_flat,
+          .is_flat = out.is_flat && !(out.gap > 0),
           .is_proven = std::fabs(out.gap) > kSameRoundWayOut,
           .has_ended = out.has_ended,
           .has_point = out.has_point,

@@ -9,9 +9,11 @@
 
 namespace carom {
 
-// Rows with the points of the first cores that are no hulls.
+using OwnPoints = std::array<std::array<float, 4>, 8>;
+
+// Rows with the points of the cores that are no hulls.
 struct CoreRowsWithPoints : CoreRows {
-  std::array<std::array<std::array<float, 4>, 8>, kMost> own_points;
+  std::array<OwnPoints, kMost> own_a, own_b;
 };
 
 inline CoreRowsWithPoints& core_rows_of_thread() {
@@ -19,15 +21,18 @@ inline CoreRowsWithPoints& core_rows_of_thread() {
   return *rows;
 }
 
-// A core before it is turned: its points, their middle, and its radius, in metres.
+// A core before it is turned, in metres: its points, and what lies about them.
 struct StatedCore {
   const float* points;
   size_t count;
   Eigen::Vector3d middle;
+  double size;  // an upper bound of all coordinates, within a factor of two
   double radius = 0;
+  bool is_round = false;
+  // Of round ones: half axes of the ellipsoid about a point, and the share of each point.
+  Eigen::Vector3d half_axes = Eigen::Vector3d::Zero();
+  std::array<double, 2> share{};
 };
-
-using OwnPoints = std::array<std::array<float, 4>, 8>;
 
 inline void put_point(const Eigen::Vector3d& p, std::array<float, 4>& out) {
   out = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0};
@@ -35,46 +40,73 @@ inline void put_point(const Eigen::Vector3d& p, std::array<float, 4>& out) {
 
 inline StatedCore stated_core(const scalar::SphereShape<double>& sphere, OwnPoints& own) {
   own[0] = {0, 0, 0, 0};
-  return {own[0].data(), 1, Eigen::Vector3d::Zero(), sphere.radius};
+  return {own[0].data(), 1, Eigen::Vector3d::Zero(), sphere.size(), sphere.radius};
 }
 inline StatedCore stated_core(const scalar::CapsuleShape<double>& capsule, OwnPoints& own) {
   put_point(capsule.a, own[0]);
   put_point(capsule.b, own[1]);
-  return {own[0].data(), 2, (capsule.a + capsule.b) / 2, capsule.radius};
+  return {own[0].data(), 2, (capsule.a + capsule.b) / 2, capsule.size(), capsule.radius};
 }
 inline StatedCore stated_box(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-                             OwnPoints& own) {
+                             double size, OwnPoints& own) {
   for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
     put_point(
         {(i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(), (i & 4 ? upper : lower).z()},
         own[i]);
   }
-  return {own[0].data(), 8, (lower + upper) / 2};
+  return {own[0].data(), 8, (lower + upper) / 2, size};
 }
 inline StatedCore stated_core(const scalar::AabbShape<double>& box, OwnPoints& own) {
-  return stated_box(box.lower, box.upper, own);
+  return stated_box(box.lower, box.upper, box.size(), own);
 }
 inline StatedCore stated_core(const scalar::BoxShape<double>& box, OwnPoints& own) {
-  return stated_box(-box.half, box.half, own);
+  return stated_box(-box.half, box.half, box.size(), own);
 }
 inline StatedCore stated_core(const scalar::HullShape<double>& hull, OwnPoints&) {
   const HullGeometry& geometry = *hull.geometry;
-  return {geometry.records()[0].data(), geometry.points().size(), geometry.middle()};
+  return {geometry.records()[0].data(), geometry.points().size(), geometry.middle(), hull.size()};
+}
+// A plain one.
+inline StatedCore stated_core(const scalar::TriangleShape<double>& triangle, OwnPoints& own) {
+  for (size_t i = 0; i < 3; ++i) put_point(triangle.corners[i], own[i]);
+  return {own[0].data(), 3, scalar::middle_of(triangle), triangle.size()};
 }
 
-// Adds a row unless lanes of doubles do not take it. Shapes, hulls at scale 1, and pose are in
-// metres; an aabb has the identity for an orientation.
-template <class A>
-bool add_core_row(const A& a, const scalar::HullShape<double>& b,
-                  const scalar::PairPose<double>& pose, CoreRowsWithPoints& rows) {
+inline StatedCore stated_round(const Eigen::Vector3d& half_axes, double half_length,
+                               const std::array<double, 2>& share, double rounding, double size,
+                               OwnPoints& own) {
+  put_point({0, 0, -half_length}, own[0]);
+  put_point({0, 0, half_length}, own[1]);
+  return {own[0].data(),
+          half_length > 0 ? 2u : 1u,
+          Eigen::Vector3d::Zero(),
+          size,
+          rounding,
+          true,
+          half_axes,
+          share};
+}
+inline StatedCore stated_core(const scalar::CylinderShape<double>& c, OwnPoints& own) {
+  return stated_round({c.radius, c.radius, 0}, c.half_length, {1, 1}, c.rounding, c.size(), own);
+}
+inline StatedCore stated_core(const scalar::ConeShape<double>& c, OwnPoints& own) {
+  return stated_round({c.radius, c.radius, 0}, c.half_length, {1, 0}, c.rounding, c.size(), own);
+}
+inline StatedCore stated_core(const scalar::EllipsoidShape<double>& e, OwnPoints& own) {
+  return stated_round(e.semi_axes, 0, {1, 1}, e.rounding, e.size(), own);
+}
+
+// Adds a row unless lanes of doubles do not take it. Pose in metres; spheres and aabbs have the
+// identity for an orientation. The cores' own points lie in those of the row.
+inline bool add_stated_row(const StatedCore& a, const StatedCore& b,
+                           const scalar::PairPose<double>& pose, CoreRows& rows) {
   // Products of rotations and lengths vanish at no scale within these.
   constexpr double kMostScale = 0x1p200;
-  const auto scale = scalar::scale_of_pair(a, b, pose);
+  const scalar::DoubleScale scale =
+      scalar::scale_of(scalar::max(scalar::largest_component(pose.d), scalar::max(a.size, b.size)));
   if (!(scale.up <= kMostScale && scale.down <= kMostScale)) return false;
-  const size_t row = rows.count;
-  const StatedCore core_a = stated_core(a, rows.own_points[row]);
-  const StatedCore core_b = stated_core(b, rows.own_points[row]);
-  if (core_a.count > kMostPointsOfDoubles || core_b.count > kMostPointsOfDoubles) return false;
+  if (a.count > kMostPointsOfDoubles || b.count > kMostPointsOfDoubles) return false;
+  const size_t row = rows.count++;
   const auto put = [&](size_t column, const Eigen::Vector3d& v) {
     for (size_t axis = 0; axis < 3; ++axis) {
       rows.column[column + axis][row] = v[static_cast<Eigen::Index>(axis)];
@@ -87,17 +119,32 @@ bool add_core_row(const A& a, const scalar::HullShape<double>& b,
   put(CoreRows::kOffset, pose.d * scale.down);
   put_turn(CoreRows::kTurnA, pose.a);
   put_turn(CoreRows::kTurnB, pose.b);
-  put(CoreRows::kMiddleA, core_a.middle);
-  put(CoreRows::kMiddleB, core_b.middle);
-  rows.column[CoreRows::kRadius][row] = core_a.radius * scale.down;
   rows.column[CoreRows::kDown][row] = scale.down;
   rows.column[CoreRows::kUp][row] = scale.up;
-  rows.points_a[row] = core_a.points;
-  rows.points_b[row] = core_b.points;
-  rows.count_a[row] = static_cast<uint32_t>(core_a.count);
-  rows.count_b[row] = static_cast<uint32_t>(core_b.count);
-  ++rows.count;
+  const auto put_core = [&](const StatedCore& core, CoreRows::Side& side, size_t middle,
+                            size_t radius, size_t roundness) {
+    put(middle, core.middle);
+    rows.column[radius][row] = core.radius * scale.down;
+    side.points[row] = core.points;
+    side.count[row] = static_cast<uint32_t>(core.count);
+    side.is_round = core.is_round;
+    if (!core.is_round) return;
+    put(roundness, core.half_axes);
+    rows.column[roundness + 3][row] = core.share[0];
+    rows.column[roundness + 4][row] = core.share[1];
+  };
+  put_core(a, rows.a, CoreRows::kMiddleA, CoreRows::kRadiusA, CoreRows::kRoundnessA);
+  put_core(b, rows.b, CoreRows::kMiddleB, CoreRows::kRadiusB, CoreRows::kRoundnessB);
   return true;
+}
+
+// The same for shapes in metres, hulls at scale 1.
+template <class A, class B>
+bool add_core_row(const A& a, const B& b, const scalar::PairPose<double>& pose,
+                  CoreRowsWithPoints& rows) {
+  const size_t row = rows.count;
+  return add_stated_row(stated_core(a, rows.own_a[row]), stated_core(b, rows.own_b[row]), pose,
+                        rows);
 }
 
 }  // namespace carom

@@ -22,7 +22,11 @@ struct PairKind {
     return more == MorePasses::clearance || has_recall_pass();
   }
   // Whether the test measures separate rows, if the batch says that they are to be.
-  bool measures_in_test() const { return is_rounded(a) || is_rounded(b); }
+  bool measures_in_test() const { return is_rounded(a) || is_rounded(b) || is_general(); }
+  // Whether round shapes are tested without a kernel of their own.
+  constexpr bool is_general() const {
+    return more == MorePasses::distance && (is_round(a) || is_round(b));
+  }
   // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
   bool has_shell_pass() const { return a == ShapeKind::hull && b == ShapeKind::hull; }
@@ -37,7 +41,7 @@ inline constexpr std::array kListedPairKinds = {
 #undef CAROM_PAIR
 };
 
-// Round shapes with all convex ones: those that are not in the list are tested one at a time.
+// Round shapes with all convex ones: those that are not in the list are tested as cores.
 template <ShapeKind kA, ShapeKind kB>
 void run_round(const Batch& batch) {
   run_round_pair(batch, kA, kB);
@@ -46,7 +50,7 @@ template <ShapeKind kA, ShapeKind kB>
 inline constexpr PairKind kRoundPairKind = [] {
   constexpr ShapeKind kFirst = comes_after(kA, kB) ? kB : kA;
   constexpr ShapeKind kSecond = comes_after(kA, kB) ? kA : kB;
-  return PairKind{kFirst, kSecond, &run_round<kFirst, kSecond>, MorePasses::manifold};
+  return PairKind{kFirst, kSecond, &run_round<kFirst, kSecond>, MorePasses::distance};
 }();
 template <ShapeKind kRound>
 inline constexpr std::array kPairKindsOfRound = {

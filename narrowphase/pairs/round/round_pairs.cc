@@ -1,30 +1,133 @@
-// Pairs with a cylinder, a cone or an ellipsoid, one at a time.
+// Pairs with a cylinder, a cone or an ellipsoid that have no kernel of their own: as cores in lanes
+// of doubles, and one at a time what those leave.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "narrowphase/batch/row_store.h"
-#include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/stated_body.h"
+#include "narrowphase/pairs/core_row.h"
 #include "narrowphase/pairs/manifold_batch.h"
 
 namespace carom {
+namespace {
+
+// Shapes that lanes of doubles take.
+template <class S>
+concept HasStatedCore = requires(S shape, OwnPoints own) {
+  stated_core(shape, own);
+};
+
+// Nothing if lanes do not take the shape.
+std::optional<StatedCore> stated_core_of(const Shape& shape, OwnPoints& own) {
+  return std::visit(
+      [&](const auto& stated) -> std::optional<StatedCore> {
+        const auto s = scalar::shape_as<double>(stated);
+        using S = std::remove_const_t<decltype(s)>;
+        if constexpr (std::is_same_v<S, scalar::TriangleShape<double>>) {
+          if (s.is_special()) return std::nullopt;
+        }
+        if constexpr (HasStatedCore<S>) return stated_core(s, own);
+        return std::nullopt;
+      },
+      shape);
+}
+
+// Tests the rows of a batch. They wait until there are enough for the lanes.
+class RoundRows {
+ public:
+  RoundRows(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b)
+      : batch_(batch),
+        kind_a_(kind_a),
+        kind_b_(kind_b),
+        view_a_(view_of(batch.a, batch.layout, kind_a)),
+        view_b_(view_of(batch.b, batch.layout, kind_b)),
+        store_(batch, kind_a, kind_b) {
+    waiting_.count = 0;
+    waiting_.decides_only = !has_contacts(batch.detail);
+    waiting_.decides_separate =
+        waiting_.decides_only || (batch.pass == Pass::test && !batch.measures);
+  }
+
+  void run(size_t row) {
+    const Pair pair = batch_.pairs[row];
+    if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) {
+      std::array<float, 10> nothing;
+      nothing.fill(std::numeric_limits<float>::quiet_NaN());
+      store_.put(row, Status::invalid, nothing);
+    } else if (!add(row, pair)) {
+      put_exact(row);
+    } else if (waiting_.count == CoreRows::kMost) {
+      finish();
+    }
+  }
+
+  void finish() {
+    if (waiting_.count == 0) return;
+    find_gaps_(waiting_);
+    for (size_t place = 0; place < waiting_.count; ++place) {
+      const size_t row = row_of_[place];
+      if (!waiting_.is_found[place]) {
+        put_exact(row);
+        continue;
+      }
+      std::array<float, CoreRows::kAnswers> answer;
+      for (size_t c = 0; c < answer.size(); ++c) answer[c] = waiting_.answer[c][place];
+      store_.put(row, Status::ok, answer);
+      if (batch_.unsure && waiting_.is_unsure[place]) batch_.unsure[row] = 1;
+    }
+    waiting_.count = 0;
+  }
+
+ private:
+  // False if lanes do not take the row.
+  bool add(size_t row, Pair pair) {
+    const size_t place = waiting_.count;
+    const auto a = stated_core_of(shape_of(a_, pair.a), waiting_.own_a[place]);
+    const auto b = stated_core_of(shape_of(b_, pair.b), waiting_.own_b[place]);
+    if (!a || !b) return false;
+    row_of_[place] = static_cast<uint16_t>(row);
+    const Position<double> p = a_.position<double>(pair.a), q = b_.position<double>(pair.b);
+    return add_stated_row(*a, *b,
+                          {{q.x - p.x, q.y - p.y, q.z - p.z},
+                           turn_of(a_, kind_a_, pair.a),
+                           turn_of(b_, kind_b_, pair.b)},
+                          waiting_);
+  }
+
+  static scalar::Quaternion<double> turn_of(const BodyReader& body, ShapeKind kind, size_t index) {
+    if (kind == ShapeKind::sphere || kind == ShapeKind::aabb) return {Eigen::Vector3d::Zero(), 1};
+    return orientation_of(body, index);
+  }
+
+  // Tests a row whose bodies are valid in double precision.
+  void put_exact(size_t row) const {
+    const std::array<float, 11> found = exact_answer(batch_, kind_a_, kind_b_, row);
+    std::array<float, 10> answer;
+    std::copy_n(found.begin(), answer.size(), answer.begin());
+    store_.put(row, found[10] != 0 ? Status::degenerate : Status::ok, answer);
+    if (batch_.unsure) batch_.unsure[row] = 1;
+  }
+
+  const Batch& batch_;
+  const ShapeKind kind_a_, kind_b_;
+  const Collidables view_a_, view_b_;
+  const BodyReader a_{view_a_}, b_{view_b_};
+  const RowStore store_;
+  const FindCoreGaps find_gaps_ = find_core_gaps();
+  CoreRowsWithPoints& waiting_ = core_rows_of_thread();
+  std::array<uint16_t, CoreRows::kMost> row_of_;
+};
+
+}  // namespace
 
 void run_round_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
   if (batch.pass == Pass::manifold) {
     return run_manifolds_one_by_one(batch, kind_a, kind_b);
   }
-  const RowStore store(batch, kind_a, kind_b);
-  for (size_t row = 0; row < batch.count; ++row) {
-    std::array<float, 10> answer;
-    if (!is_valid_pair(batch, kind_a, kind_b, row)) {
-      answer.fill(std::numeric_limits<float>::quiet_NaN());
-      store.put(row, Status::invalid, answer);
-      continue;
-    }
-    const std::array<float, 11> found = exact_answer(batch, kind_a, kind_b, row);
-    std::copy_n(found.begin(), answer.size(), answer.begin());
-    store.put(row, found[10] != 0 ? Status::degenerate : Status::ok, answer);
-    if (batch.unsure) batch.unsure[row] = 1;
-  }
+  RoundRows rows(batch, kind_a, kind_b);
+  for (size_t row = 0; row < batch.count; ++row) rows.run(row);
+  rows.finish();
 }
 
 }  // namespace carom

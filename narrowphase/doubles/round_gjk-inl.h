@@ -1,0 +1,191 @@
+// GJK for pairs of cores of which one is round, in each lane of doubles (round_gjk.h is the scalar
+// form).
+#if defined(CAROM_NARROWPHASE_DOUBLES_ROUND_GJK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_DOUBLES_ROUND_GJK_INL_H_
+#undef CAROM_NARROWPHASE_DOUBLES_ROUND_GJK_INL_H_
+#else
+#define CAROM_NARROWPHASE_DOUBLES_ROUND_GJK_INL_H_
+#endif
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "narrowphase/doubles/plain_gap-inl.h"
+#include "narrowphase/doubles/round_gjk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// A core in each lane, all of them round, or none. Round ones have one or two points, and an
+// ellipsoid about each, as CoreRoundness says.
+struct RoundCoreLanes {
+  const HullPointLanes* points;
+  bool is_round;
+  std::array<D3, 3> axis;
+  std::array<D, 2> share;
+
+  // The support point along `way`.
+  HWY_INLINE D3 furthest(const D3& way) const {
+    if (!is_round) return points->furthest(way);
+    const auto& [x, y, z] = axis;
+    const D3 along{dot(x, way), dot(y, way), dot(z, way)};
+    const D reach = hn::Sqrt(dot(along, along));
+    D3 middle = get(points->point[0]);
+    D of_middle = share[0];
+    if (points->count > 1) {
+      const D3 other = get(points->point[1]);
+      const DoubleMask is_higher = hn::Gt(hn::Add(dot(way, other), hn::Mul(share[1], reach)),
+                                          hn::Add(dot(way, middle), hn::Mul(share[0], reach)));
+      middle = select(is_higher, other, middle);
+      of_middle = hn::IfThenElse(is_higher, share[1], of_middle);
+    }
+    const D3 out =
+        (x * hn::Div(along.x, reach) + y * hn::Div(along.y, reach)) + z * hn::Div(along.z, reach);
+    const DoubleMask has_way = hn::Gt(reach, hn::Zero(DoubleTag()));
+    return select(has_way, middle + out * of_middle, middle);
+  }
+};
+
+struct RoundPairLanes {
+  RoundCoreLanes a, b;
+  D radius;  // of both together
+};
+
+struct RoundGapLanes {
+  D size;
+  D3 normal, of_a;
+  DoubleMask is_found;
+};
+
+// As scalar::is_as_near().
+HWY_INLINE DoubleMask is_as_near(D gap, D squared) {
+  const D less = hn::Sub(squared, gap);
+  const auto share = [&](double s) HWY_ATTR { return hn::Mul(splat_double(s), squared); };
+  const DoubleMask is_short = hn::Le(less, share(kSameRoundWay / 4));
+  const DoubleMask is_good = hn::Le(hn::Mul(less, less), share(kSameRoundGap * kSameRoundGap));
+  return hn::Or(hn::Le(less, share(scalar::kRoundedSquare)), hn::And(is_short, is_good));
+}
+
+// As scalar::RoundGjk.
+class RoundGjkLanes {
+ public:
+  std::array<D3, 3> corner, of_a;
+  Places used = places(0b001);
+  D3 point, last;
+  D squared, gap;
+  DoubleMask is_nearest = no_lanes_of<D>(), is_apart = no_lanes_of<D>(),
+             is_around = no_lanes_of<D>();
+
+  HWY_INLINE RoundGjkLanes(const RoundPairLanes& cores, const D3& between, bool decides_separate) {
+    const DoubleTag tag;
+    const D clear = hn::Add(cores.radius, splat_double(scalar::kClearRoundGap));
+    clear_squared_ = decides_separate ? hn::Mul(clear, clear) : splat_double(HUGE_VAL);
+    constexpr CoreVector kOff = scalar::kOffPlane;
+    const D3 start =
+        between + D3{splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
+    const D3 first_of_a = cores.a.furthest(start);
+    point = last = cores.b.furthest(-start) - first_of_a;
+    squared = dot(point, point);
+    gap = hn::Zero(tag);
+    corner = {point, point, point};
+    of_a = {first_of_a, first_of_a, first_of_a};
+    DoubleMask is_open = hn::Gt(squared, splat_double(kTouchingSquared));
+    run_round<1>(cores, is_open);
+    run_round<2>(cores, is_open);
+    for (int round = 2; round < scalar::kMostRoundRounds && !hn::AllFalse(tag, is_open); ++round) {
+      run_round<3>(cores, is_open);
+    }
+  }
+
+  // As scalar::RoundGjk::point_of_a().
+  HWY_INLINE D3 point_of_a() const {
+    const DoubleMask has_p = has_place(used, 0), has_q = has_place(used, 1),
+                     has_r = has_place(used, 2);
+    const auto first_of = [&](const std::array<D3, 3>& v)
+                              HWY_ATTR { return select(has_p, v[0], select(has_q, v[1], v[2])); };
+    const auto second_of = [&](const std::array<D3, 3>& v)
+                               HWY_ATTR { return select(hn::And(has_p, has_q), v[1], v[2]); };
+    const D3 p = first_of(corner), on_a = first_of(of_a);
+    const D3 u = second_of(corner) - p, way = point - p, along = second_of(of_a) - on_a;
+    const D3 beside = on_a + along * hn::Div(dot(way, u), dot(u, u));
+    const D3 v = corner[2] - p, n = cross(u, v);
+    const D each = hn::Div(splat_double(1), dot(n, n));
+    const D of_u = hn::Mul(dot(n, cross(way, v)), each);
+    const D of_v = hn::Mul(dot(n, cross(u, way)), each);
+    const D3 over = (on_a + along * of_u) + (of_a[2] - on_a) * of_v;
+    const DoubleMask has_two = hn::Or(hn::And(has_p, has_q), hn::And(hn::Or(has_p, has_q), has_r));
+    const DoubleMask has_three = hn::And(hn::And(has_p, has_q), has_r);
+    return select(has_three, over, select(has_two, beside, on_a));
+  }
+
+ private:
+  // The simplex has no more than `kPlaces` corners.
+  template <size_t kPlaces>
+  HWY_INLINE void run_round(const RoundPairLanes& cores, DoubleMask& is_open) {
+    const D3 next_of_a = cores.a.furthest(point);
+    const D3 next = cores.b.furthest(-point) - next_of_a;
+    const D product = dot(point, next);
+    DoubleMask ends = is_as_near(product, squared);
+    for (size_t i = 0; i < kPlaces; ++i) {
+      ends = hn::Or(ends, hn::And(has_place(used, i), are_same(corner[i], next)));
+    }
+    ends = hn::And(is_open, ends);
+    gap = hn::IfThenElse(ends, product, gap);
+    is_nearest = hn::Or(is_nearest, ends);
+    is_open = hn::AndNot(ends, is_open);
+    const DoubleMask is_clear =
+        hn::And(hn::And(is_open, hn::Gt(product, hn::Zero(DoubleTag()))),
+                hn::Gt(hn::Mul(product, product), hn::Mul(clear_squared_, squared)));
+    gap = hn::IfThenElse(is_clear, product, gap);
+    is_apart = hn::Or(is_apart, is_clear);
+    is_open = hn::AndNot(is_clear, is_open);
+    const PlainSearch<kPlaces> search(corner, used, next, scalar::kRoundSliver);
+    const PlainNearestLanes& nearer = search.nearest();
+    const DoubleMask is_in = hn::And(is_open, nearer.is_around);
+    last = select(is_in, next, last);
+    is_around = hn::Or(is_around, is_in);
+    is_open = hn::AndNot(hn::Or(nearer.is_around, nearer.is_unclear), is_open);
+    is_open = hn::And(is_open, hn::Lt(nearer.squared, squared));
+    const Places taken = hn::AndNot(nearer.kept, hn::Add(nearer.kept, places(1)));
+    for (size_t i = 0; i < 3; ++i) {
+      const DoubleMask is_taken = hn::And(is_open, has_place(taken, i));
+      corner[i] = select(is_taken, next, corner[i]);
+      of_a[i] = select(is_taken, next_of_a, of_a[i]);
+    }
+    used = select(is_open, hn::Or(nearer.kept, taken), used);
+    point = select(is_open, nearer.point, point);
+    squared = hn::IfThenElse(is_open, nearer.squared, squared);
+    is_open = hn::And(is_open, hn::Gt(squared, splat_double(kTouchingSquared)));
+  }
+
+  D clear_squared_;
+};
+
+// As scalar::find_plain_round_gap(). `between`: from a point inside of A to one inside of B.
+HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const D3& between,
+                                              const scalar::RoundGoal& goal) {
+  const RoundGjkLanes gjk(cores, between, goal.decides_separate);
+  const D distance = hn::Sqrt(gjk.squared), parted = hn::Div(gjk.gap, distance);
+  const D slack =
+      min(splat_double(kSameRoundWayOut), hn::Mul(splat_double(kSameRoundWay), distance));
+  const DoubleMask is_distance =
+      hn::And(hn::And(gjk.is_nearest, hn::Gt(distance, splat_double(kTouchingRound))),
+              hn::Le(hn::Sub(distance, parted), slack));
+  RoundGapLanes gap{hn::IfThenElse(gjk.is_apart, parted, distance),
+                    gjk.point * hn::Div(splat_double(1), distance), gjk.point_of_a(),
+                    hn::Or(gjk.is_apart, is_distance)};
+  if (goal.decides_overlapping && !hn::AllFalse(DoubleTag(), gjk.is_around)) {
+    const PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
+    const D height = portal.squared_height();
+    const DoubleMask is_deep =
+        hn::And(gjk.is_around, hn::Gt(height, splat_double(kProvenGap * kProvenGap)));
+    gap.size = hn::IfThenElse(is_deep, hn::Neg(hn::Sqrt(height)), gap.size);
+    gap.is_found = hn::Or(gap.is_found, is_deep);
+  }
+  return gap;
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_DOUBLES_ROUND_GJK_INL_H_
