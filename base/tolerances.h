@@ -95,22 +95,26 @@ inline constexpr float kShortArc = 0x1p-4f;
 inline constexpr float kLastArc = 0x1p-11f;
 inline constexpr float kNotEnded = 0x1p-20f;
 
-// Searches for two rims: the steps, the longest of them as a share of the sine between the
-// direction and the nearer axis, the least product of curvatures of a peak, the least distance from
-// an axis, and the least square of a direction's length.
-inline constexpr size_t kRimSteps = 7;
+// Searches for two rims: from how many starts, with a smaller cosine between them than kRimApart;
+// the steps from each, those from the best of their ends, and the longest of them as a share of the
+// sine between the direction and the nearer axis; the least distance from an axis, and the least
+// square of a direction's length.
+inline constexpr size_t kRimStarts = 3;
+inline constexpr float kRimApart = 0.98f;
+inline constexpr size_t kRimFirstSteps = 4;
+inline constexpr size_t kRimLastSteps = 4;
 inline constexpr float kRimStep = 0.6f;
-inline constexpr float kLeastBend = 0x1p-20f;
 inline constexpr float kLeastRim = 0x1p-20f;
 inline constexpr float kLeastWay = 0x1p-60f;
 
-// Searches for the widest gap of two ellipsoids, from a few directions with a smaller cosine
-// between them than kApart: the steps, the longest of them, and by how much a step at a saddle
-// lowers the greater curvature below zero, as a share of the difference of both and in scaled
-// units.
-inline constexpr size_t kEllipsoidStarts = 3;
-inline constexpr float kApart = 0.7f;
-inline constexpr size_t kEllipsoidSteps = 7;
+// Searches for the widest gap of two ellipsoids: from how many directions, with a smaller cosine
+// between them than kEllipsoidsApart; the steps from each, those from the best of their ends, the
+// longest of them, and by how much a step at a saddle lowers the greater curvature below zero, as a
+// share of the difference of both and in scaled units.
+inline constexpr size_t kEllipsoidStarts = 4;
+inline constexpr float kEllipsoidsApart = 0.8f;
+inline constexpr size_t kEllipsoidFirstSteps = 6;
+inline constexpr size_t kEllipsoidLastSteps = 2;
 inline constexpr float kLongTurn = 0.4f;
 inline constexpr float kSaddleShare = 0.2f;
 inline constexpr float kSaddle = 0.01f;

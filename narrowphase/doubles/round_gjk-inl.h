@@ -81,8 +81,7 @@ class RoundGjkLanes {
     const D clear = hn::Add(cores.radius, splat_double(scalar::kClearRoundGap));
     clear_squared_ = decides_separate ? hn::Mul(clear, clear) : splat_double(HUGE_VAL);
     constexpr CoreVector kOff = scalar::kOffPlane;
-    const D3 start =
-        between + D3{splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
+    const D3 start = between + D3{splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
     const D3 first_of_a = cores.a.furthest(start);
     point = last = cores.b.furthest(-start) - first_of_a;
     squared = dot(point, point);

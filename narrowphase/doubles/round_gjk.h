@@ -57,7 +57,8 @@ class RoundGjk {
 
   RoundGjk(const Core& a, const Core& b, FurthestPoint furthest, const RoundGoal& goal) {
     const double clear = (a.radius + b.radius) + kClearRoundGap;
-    const DifferencePoint first = find_difference_point(a, b, (b.middle - a.middle) + kOffPlane, furthest);
+    const DifferencePoint first =
+        find_difference_point(a, b, (b.middle - a.middle) + kOffPlane, furthest);
     point = first.point;
     squared = dot(point, point);
     replace(0, first);

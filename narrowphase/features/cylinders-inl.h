@@ -7,6 +7,8 @@
 #define CAROM_NARROWPHASE_FEATURES_CYLINDERS_INL_H_
 #endif
 
+#include <array>
+
 #include "base/tolerances.h"
 #include "narrowphase/features/edge_arc-inl.h"
 #include "simd/rotation-inl.h"
@@ -69,15 +71,6 @@ class CylinderPairLanes {
   }
 
  private:
-  struct Start {
-    F gap;
-    F3 n;
-    F sign_a, sign_b;
-  };
-  struct Starts {
-    Start first, second;
-  };
-
   static HWY_INLINE F rank(F gap, Mask has_ended) {
     return hn::Sub(gap, hn::IfThenZeroElse(has_ended, splat(kNotEnded)));
   }
@@ -184,108 +177,113 @@ class CylinderPairLanes {
             hn::Sub(t_.y, hn::Mul(b, sine_)), t_.z};
   }
 
-  static HWY_INLINE Start no_start() {
-    const F zero = splat(0), one = splat(1);
-    return {splat(-FLT_MAX), {zero, zero, one}, one, one};
-  }
-  static HWY_INLINE Start chosen(Mask which, const Start& yes, const Start& no) {
-    return {hn::IfThenElse(which, yes.gap, no.gap), select(which, yes.n, no.n),
-            hn::IfThenElse(which, yes.sign_a, no.sign_a),
-            hn::IfThenElse(which, yes.sign_b, no.sign_b)};
-  }
-  static HWY_INLINE void add(const Start& next, Starts& starts) {
-    const Mask is_same =
-        hn::And(hn::Eq(next.sign_a, starts.first.sign_a), hn::Eq(next.sign_b, starts.first.sign_b));
-    const Mask is_first = hn::Gt(next.gap, starts.first.gap);
-    const Mask is_second =
-        hn::AndNot(hn::Or(is_first, is_same), hn::Gt(next.gap, starts.second.gap));
-    const Start second = chosen(is_second, next, starts.second);
-    starts.second = chosen(hn::AndNot(is_same, is_first), starts.first, second);
-    starts.first = chosen(is_first, next, starts.first);
-  }
+  class Starts {
+   public:
+    HWY_INLINE explicit Starts(const CylinderPairLanes& pair) {
+      for (const float sign_a : {1.0f, -1.0f}) {
+        for (const float sign_b : {1.0f, -1.0f}) add_between(splat(sign_a), splat(sign_b), pair);
+      }
+      add_cap_of_a(pair);
+      add_cap_of_b(pair);
+    }
 
-  // `may`: other lanes keep what they have.
-  HWY_INLINE void keep_if_wider(Mask may, const F3& way, Start& start) const {
-    const F squared = dot(way, way);
-    const F3 n = way * unit_factor(squared);
-    const F wide = gap(n);
-    const Mask wider =
-        hn::And(hn::And(may, hn::Gt(squared, splat(kLeastWay))), hn::Gt(wide, start.gap));
-    start.gap = hn::IfThenElse(wider, wide, start.gap);
-    start.n = select(wider, n, start.n);
-    start.sign_a = hn::IfThenElse(wider, sign_of(n.x), start.sign_a);
-    start.sign_b = hn::IfThenElse(wider, sign_of(along_b(n)), start.sign_b);
-  }
+    HWY_INLINE F3 take_best() {
+      F3 best = n_[0];
+      F most = gap_[0];
+      for (size_t i = 1; i < kCount; ++i) {
+        const Mask wider = hn::Gt(gap_[i], most);
+        most = hn::IfThenElse(wider, gap_[i], most);
+        best = select(wider, n_[i], best);
+      }
+      for (size_t i = 0; i < kCount; ++i) {
+        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kRimApart));
+        gap_[i] = hn::IfThenElse(is_near, splat(-FLT_MAX), gap_[i]);
+      }
+      return best;
+    }
 
-  HWY_INLINE Start start_between(F sign_a, F sign_b) const {
-    const F zero = splat(0);
-    const Mask all = hn::Not(no_lanes());
-    const F3 way = between_caps(sign_a, sign_b);
-    const F3 q = way * unit_factor(max(dot(way, way), splat(kLeastWay)));
-    const F3 a = {sign_a, zero, zero};
-    const F3 b = {hn::Mul(sign_b, cosine_), hn::Mul(sign_b, sine_), zero};
-    Start start = no_start();
-    const F3 qa = q + a, qb = q + b, both = qa + b;
-    keep_if_wider(all, q, start);
-    keep_if_wider(all, qa, start);
-    keep_if_wider(all, qb, start);
-    keep_if_wider(all, both, start);
-    keep_if_wider(all, a + b, start);
-    keep_if_wider(all, both + a, start);
-    keep_if_wider(all, both + b, start);
-    return start;
-  }
+   private:
+    HWY_INLINE void add(const F3& way, Mask may, const CylinderPairLanes& pair) {
+      const F squared = dot(way, way), least = splat(kLeastWay);
+      n_[count_] = way * unit_factor(max(squared, least));
+      gap_[count_] = hn::IfThenElse(hn::And(may, hn::Gt(squared, least)), pair.gap(n_[count_]),
+                                    splat(-FLT_MAX));
+      ++count_;
+    }
 
-  HWY_INLINE Start start_at_cap_of_a() const {
-    const F sign = sign_of(t_.x);
-    const F half = hn::Mul(sign, half_b_), rim = hn::Mul(sign, rim_b_);
-    const F3 p = {hn::Sub(hn::Sub(t_.x, hn::Mul(half, cosine_)), hn::Mul(rim, sine_)),
-                  hn::Add(hn::Sub(t_.y, hn::Mul(half, sine_)), hn::Mul(rim, cosine_)), t_.z};
-    const F above = hn::Sub(hn::Mul(sign, p.x), half_a_);
-    const F from_axis = hypot_of(p.y, p.z);
-    const F share = hn::Div(hn::Sub(from_axis, rim_a_), max(from_axis, splat(kLeastRim)));
-    Start start = no_start();
-    keep_if_wider(hn::Gt(min(above, share), splat(0)),
-                  {hn::Mul(sign, above), hn::Mul(p.y, share), hn::Mul(p.z, share)}, start);
-    return start;
-  }
+    HWY_INLINE void add_between(F sign_a, F sign_b, const CylinderPairLanes& pair) {
+      const F zero = splat(0);
+      const Mask may = hn::Not(no_lanes());
+      const F3 way = pair.between_caps(sign_a, sign_b);
+      const F3 q = way * unit_factor(max(dot(way, way), splat(kLeastWay)));
+      const F3 a = {sign_a, zero, zero};
+      const F3 b = {hn::Mul(sign_b, pair.cosine_), hn::Mul(sign_b, pair.sine_), zero};
+      const F3 all = (q + a) + b;
+      add(q, may, pair);
+      add(all, may, pair);
+      add(all + a, may, pair);
+      add(all + b, may, pair);
+    }
 
-  HWY_INLINE Start start_at_cap_of_b() const {
-    const F sign = sign_of(along_b(t_));
-    const F3 w = {hn::Sub(t_.x, hn::Mul(sign, half_a_)), hn::Sub(t_.y, hn::Mul(sign, rim_a_)),
-                  t_.z};
-    const F above = hn::Sub(hn::Mul(sign, along_b(w)), half_b_);
-    const F across = across_b(w);
-    const F from_axis = hypot_of(across, w.z);
-    const F share = hn::Div(hn::Sub(from_axis, rim_b_), max(from_axis, splat(kLeastRim)));
-    const F along = hn::Mul(sign, above), beside = hn::Mul(across, share);
-    Start start = no_start();
-    keep_if_wider(hn::Gt(min(above, share), splat(0)),
-                  {hn::Sub(hn::Mul(cosine_, along), hn::Mul(sine_, beside)),
-                   hn::Add(hn::Mul(sine_, along), hn::Mul(cosine_, beside)), hn::Mul(w.z, share)},
-                  start);
-    return start;
-  }
+    HWY_INLINE void add_cap_of_a(const CylinderPairLanes& pair) {
+      const F cosine = pair.cosine_, sine = pair.sine_;
+      const F3& t = pair.t_;
+      const F sign = sign_of(t.x);
+      const F half = hn::Mul(sign, pair.half_b_), rim = hn::Mul(sign, pair.rim_b_);
+      const F3 p = {hn::Sub(hn::Sub(t.x, hn::Mul(half, cosine)), hn::Mul(rim, sine)),
+                    hn::Add(hn::Sub(t.y, hn::Mul(half, sine)), hn::Mul(rim, cosine)), t.z};
+      const F above = hn::Sub(hn::Mul(sign, p.x), pair.half_a_);
+      const F from_axis = hypot_of(p.y, p.z);
+      const F share = hn::Div(hn::Sub(from_axis, pair.rim_a_), max(from_axis, splat(kLeastRim)));
+      add({hn::Mul(sign, above), hn::Mul(p.y, share), hn::Mul(p.z, share)},
+          hn::Gt(min(above, share), splat(0)), pair);
+    }
+
+    HWY_INLINE void add_cap_of_b(const CylinderPairLanes& pair) {
+      const F cosine = pair.cosine_, sine = pair.sine_;
+      const F3& t = pair.t_;
+      const F sign = sign_of(pair.along_b(t));
+      const F3 w = {hn::Sub(t.x, hn::Mul(sign, pair.half_a_)),
+                    hn::Sub(t.y, hn::Mul(sign, pair.rim_a_)), t.z};
+      const F above = hn::Sub(hn::Mul(sign, pair.along_b(w)), pair.half_b_);
+      const F across = pair.across_b(w);
+      const F from_axis = hypot_of(across, w.z);
+      const F share = hn::Div(hn::Sub(from_axis, pair.rim_b_), max(from_axis, splat(kLeastRim)));
+      const F along = hn::Mul(sign, above), beside = hn::Mul(across, share);
+      add({hn::Sub(hn::Mul(cosine, along), hn::Mul(sine, beside)),
+           hn::Add(hn::Mul(sine, along), hn::Mul(cosine, beside)), hn::Mul(w.z, share)},
+          hn::Gt(min(above, share), splat(0)), pair);
+    }
+
+    static constexpr size_t kCount = 18;
+    std::array<F3, kCount> n_;
+    std::array<F, kCount> gap_;
+    size_t count_ = 0;
+  };
 
   HWY_INLINE void try_rims(Found& best) const {
-    Starts starts = {no_start(), no_start()};
-    for (const float sign_a : {1.0f, -1.0f}) {
-      for (const float sign_b : {1.0f, -1.0f}) {
-        add(start_between(splat(sign_a), splat(sign_b)), starts);
-      }
+    Starts starts(*this);
+    F most = splat(-FLT_MAX);
+    F3 n_of_best = {splat(0), splat(0), splat(1)}, q_of_best = splat3(0);
+    std::array<F3, kRimStarts> n, q;
+    for (size_t i = 0; i < kRimStarts; ++i) {
+      n[i] = starts.take_best();
+      q[i] = between_caps(sign_of(n[i].x), sign_of(along_b(n[i])));
     }
-    add(start_at_cap_of_a(), starts);
-    add(start_at_cap_of_b(), starts);
-    climb(starts.first, best);
-    climb(starts.second, best);
-  }
-
-  HWY_INLINE void climb(const Start& start, Found& best) const {
-    F3 n = start.n;
-    const F3 q = between_caps(start.sign_a, start.sign_b);
+    // All together: one step waits for its own roots and quotients.
+    for (size_t k = 0; k < kRimFirstSteps; ++k) {
+      for (size_t i = 0; i < kRimStarts; ++i) step(q[i], n[i]);
+    }
+    for (size_t i = 0; i < kRimStarts; ++i) {
+      const F wide = gap(n[i]);
+      const Mask wider = hn::Gt(wide, most);
+      most = hn::IfThenElse(wider, wide, most);
+      n_of_best = select(wider, n[i], n_of_best);
+      q_of_best = select(wider, q[i], q_of_best);
+    }
     Mask has_ended = no_lanes();
-    for (size_t i = 0; i < kRimSteps; ++i) has_ended = step(q, n);
-    keep_if_wider(gap(n), n, no_lanes(), no_lanes(), has_ended, best);
+    for (size_t k = 0; k < kRimLastSteps; ++k) has_ended = step(q_of_best, n_of_best);
+    keep_if_wider(gap(n_of_best), n_of_best, no_lanes(), no_lanes(), has_ended, best);
   }
 
   HWY_INLINE Mask step(const F3& q, F3& n) const {
@@ -296,30 +294,33 @@ class CylinderPairLanes {
     const F off_b = max(hn::Sqrt(hn::Add(hn::Mul(across, across), square)), splat(kLeastRim));
     const F over_a = hn::Div(one_lane, off_a), over_b = hn::Div(one_lane, off_b);
     const F3 b_axis = {cosine_, sine_, zero};
-    const F3 one = {zero, hn::Neg(hn::Mul(n.z, over_a)), hn::Mul(n.y, over_a)};
-    const F3 two = cross(n, one);
+    const F3 first = {zero, hn::Neg(hn::Mul(n.z, over_a)), hn::Mul(n.y, over_a)};
+    const F3 second = cross(n, first);
     const F3 side = cross(b_axis, n) * over_b;
-    const F c = dot(side, one), s = dot(side, two);
+    const F c = dot(side, first), s = dot(side, second);
     const F3 out_a = {zero, hn::Mul(n.y, over_a), hn::Mul(n.z, over_a)};
     const F3 out_b = (n - b_axis * along) * over_b;
     const F3 way = (q - out_a * rim_a_) - out_b * rim_b_;
-    const F height = dot(way, n), slope_one = dot(way, one), slope_two = dot(way, two);
+    const F height = dot(way, n), slope_one = dot(way, first), slope_two = dot(way, second);
     const F bend_a = hn::Mul(rim_a_, over_a), bend_b = hn::Mul(rim_b_, over_b);
-    const F one_one = hn::Sub(hn::Neg(hn::Add(bend_a, hn::Mul(bend_b, hn::Mul(c, c)))), height);
-    const F one_two = hn::Neg(hn::Mul(bend_b, hn::Mul(c, s)));
-    const F two_two = hn::Sub(hn::Neg(hn::Mul(bend_b, hn::Mul(s, s))), height);
-    const F determinant = hn::Sub(hn::Mul(one_one, two_two), hn::Mul(one_two, one_two));
-    const Mask is_peak = hn::And(hn::Lt(one_one, zero), hn::Gt(determinant, splat(kLeastBend)));
-    const F slow = hn::Add(hn::Add(hn::Add(bend_a, bend_b), hn::Abs(height)), splat(kShortArc));
-    const F over = hn::Div(one_lane, hn::IfThenElse(is_peak, determinant, slow));
-    const F newton_one = hn::Sub(hn::Mul(one_two, slope_two), hn::Mul(two_two, slope_one));
-    const F newton_two = hn::Sub(hn::Mul(one_two, slope_one), hn::Mul(one_one, slope_two));
-    const F by_one = hn::Mul(hn::IfThenElse(is_peak, newton_one, slope_one), over);
-    const F by_two = hn::Mul(hn::IfThenElse(is_peak, newton_two, slope_two), over);
+    const F one = hn::Sub(hn::Neg(hn::Add(bend_a, hn::Mul(bend_b, hn::Mul(c, c)))), height);
+    const F two = hn::Sub(hn::Neg(hn::Mul(bend_b, hn::Mul(s, s))), height);
+    const F both = hn::Neg(hn::Mul(bend_b, hn::Mul(c, s)));
+    const F half = hn::Mul(hn::Sub(one, two), splat(0.5f));
+    const F mean = hn::Mul(hn::Add(one, two), splat(0.5f));
+    const F spread = hypot_of(half, both);
+    const F greater = hn::Add(mean, spread);
+    const F lower = hn::IfThenZeroElse(
+        hn::Lt(greater, zero),
+        hn::Add(hn::Add(greater, hn::Mul(splat(kSaddleShare), spread)), splat(kSaddle)));
+    const F one_one = hn::Sub(one, lower), two_two = hn::Sub(two, lower);
+    const F over = hn::Div(one_lane, hn::Sub(hn::Mul(one_one, two_two), hn::Mul(both, both)));
+    const F by_one = hn::Mul(hn::Sub(hn::Mul(both, slope_two), hn::Mul(two_two, slope_one)), over);
+    const F by_two = hn::Mul(hn::Sub(hn::Mul(both, slope_one), hn::Mul(one_one, slope_two)), over);
     const F length = hypot_of(by_one, by_two);
     const F most = hn::Mul(splat(kRimStep), min(off_a, off_b));
     const F share = hn::IfThenElse(hn::Gt(length, most), hn::Div(most, length), one_lane);
-    F3 next = n + (one * hn::Mul(by_one, share) + two * hn::Mul(by_two, share));
+    F3 next = n + (first * hn::Mul(by_one, share) + second * hn::Mul(by_two, share));
     next.z = max(next.z, zero);
     n = next * unit_factor(dot(next, next));
     return hn::Le(length, splat(kLastArc));

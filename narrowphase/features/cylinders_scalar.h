@@ -10,7 +10,9 @@
 // - a side and a rim: the best direction of the circle across the axis, by Newton's method from the
 //   best of samples at either end of a quarter, where all but one maximum repeat;
 // - two rims: the best in the cone of t and both axes (a projection onto it takes no product down),
-//   by Newton's method on the sphere from the best two of some combinations.
+//   by Newton's method on the sphere from some sums: a few steps from each of the best that lie
+//   apart, and more from the best of these. At a saddle both curvatures are lowered first, so that
+//   the step leads upwards.
 //
 // Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
 // face each other along the best one: then no direction has a greater gap, if the shapes are apart.
@@ -86,13 +88,6 @@ class CylinderPair {
   }
 
  private:
-  // `signs`: at which end of their axes the features are.
-  struct Start {
-    float gap = -kLargest;
-    Vector3<float> n{0, 0, 1};
-    float sign_a = 1, sign_b = 1;
-  };
-
   float gap(const Vector3<float>& n) const {
     const float along_b = cosine_ * n.x() + sine_ * n.y();
     const float across_b = cosine_ * n.y() - sine_ * n.x();
@@ -172,95 +167,110 @@ class CylinderPair {
     return {(t_.x() - sign_a * half_a_) - b * cosine_, t_.y() - b * sine_, t_.z()};
   }
 
-  // The best two at different ends, the best first.
-  struct Starts {
-    Start first, second;
-    void add(const Start& next) {
-      const bool is_same = next.sign_a == first.sign_a && next.sign_b == first.sign_b;
-      if (next.gap > first.gap) {
-        if (!is_same) second = first;
-        first = next;
-      } else if (!is_same && next.gap > second.gap) {
-        second = next;
+  // The directions to start from, and their gaps.
+  class Starts {
+   public:
+    explicit Starts(const CylinderPair& pair) : pair_(pair) {
+      for (const float sign_a : {1.0f, -1.0f}) {
+        for (const float sign_b : {1.0f, -1.0f}) add_between(sign_a, sign_b);
       }
+      add_cap_of_a();
+      add_cap_of_b();
     }
+
+    // The best that is left; what is near it is left out afterwards.
+    Vector3<float> take_best() {
+      Vector3<float> best = n_[0];
+      float most = gap_[0];
+      for (size_t i = 1; i < kCount; ++i) {
+        if (!(gap_[i] > most)) continue;
+        most = gap_[i];
+        best = n_[i];
+      }
+      for (size_t i = 0; i < kCount; ++i) {
+        if (dot(n_[i], best) > kRimApart) gap_[i] = -kLargest;
+      }
+      return best;
+    }
+
+   private:
+    // Never the best if the way vanishes, or if it may not be.
+    void add(const Vector3<float>& way, bool may = true) {
+      const float squared = dot(way, way);
+      n_[count_] = way * (1 / std::sqrt(max(squared, kLeastWay)));
+      gap_[count_] = may && squared > kLeastWay ? pair_.gap(n_[count_]) : -kLargest;
+      ++count_;
+    }
+
+    // Sums of the vector between two caps and the axes.
+    void add_between(float sign_a, float sign_b) {
+      const Vector3<float> way = pair_.between_caps(sign_a, sign_b);
+      const Vector3<float> q = way * (1 / std::sqrt(max(dot(way, way), kLeastWay)));
+      const Vector3<float> a(sign_a, 0, 0);
+      const Vector3<float> b(sign_b * pair_.cosine_, sign_b * pair_.sine_, 0);
+      const Vector3<float> all = q + a + b;
+      add(q);
+      add(all);
+      add(all + a);
+      add(all + b);
+    }
+
+    // From A's rim to the point of B that is furthest along A's axis, if that lies beside the cap.
+    void add_cap_of_a() {
+      const float cosine = pair_.cosine_, sine = pair_.sine_;
+      const Vector3<float>& t = pair_.t_;
+      const float sign = std::copysign(1.0f, t.x());
+      const float half = sign * pair_.half_b_, rim = sign * pair_.rim_b_;
+      const Vector3<float> p((t.x() - half * cosine) - rim * sine,
+                             (t.y() - half * sine) + rim * cosine, t.z());
+      const float above = sign * p.x() - pair_.half_a_;
+      const float from_axis = std::sqrt(p.y() * p.y() + p.z() * p.z());
+      const float share = (from_axis - pair_.rim_a_) / max(from_axis, kLeastRim);
+      add({sign * above, p.y() * share, p.z() * share}, min(above, share) > 0);
+    }
+
+    // The same from B's rim.
+    void add_cap_of_b() {
+      const float cosine = pair_.cosine_, sine = pair_.sine_;
+      const Vector3<float>& t = pair_.t_;
+      const float sign = std::copysign(1.0f, cosine * t.x() + sine * t.y());
+      const Vector3<float> w(t.x() - sign * pair_.half_a_, t.y() - sign * pair_.rim_a_, t.z());
+      const float above = sign * (cosine * w.x() + sine * w.y()) - pair_.half_b_;
+      const float across = cosine * w.y() - sine * w.x();
+      const float from_axis = std::sqrt(across * across + w.z() * w.z());
+      const float share = (from_axis - pair_.rim_b_) / max(from_axis, kLeastRim);
+      const float along = sign * above, beside = across * share;
+      add({cosine * along - sine * beside, sine * along + cosine * beside, w.z() * share},
+          min(above, share) > 0);
+    }
+
+    static constexpr size_t kCount = 18;
+    const CylinderPair& pair_;
+    std::array<Vector3<float>, kCount> n_;
+    std::array<float, kCount> gap_;
+    size_t count_ = 0;
   };
 
-  // Unless `way` vanishes.
-  void keep_if_wider(const Vector3<float>& way, Start& start) const {
-    const float squared = dot(way, way);
-    if (!(squared > kLeastWay)) return;
-    const Vector3<float> n = way * (1 / std::sqrt(squared));
-    const float wide = gap(n);
-    if (!(wide > start.gap)) return;
-    start.gap = wide;
-    start.n = n;
-    start.sign_a = std::copysign(1.0f, n.x());
-    start.sign_b = std::copysign(1.0f, cosine_ * n.x() + sine_ * n.y());
-  }
-
-  // Combinations of the vector between two caps and the axes.
-  Start start_between(float sign_a, float sign_b) const {
-    const Vector3<float> way = between_caps(sign_a, sign_b);
-    const Vector3<float> q = way * (1 / std::sqrt(max(dot(way, way), kLeastWay)));
-    const Vector3<float> a(sign_a, 0, 0), b(sign_b * cosine_, sign_b * sine_, 0);
-    Start start;
-    const Vector3<float> qa = q + a, qb = q + b, all = qa + b;
-    for (const Vector3<float>& combination : {q, qa, qb, all, Vector3<float>(a + b),
-                                              Vector3<float>(all + a), Vector3<float>(all + b)}) {
-      keep_if_wider(combination, start);
-    }
-    return start;
-  }
-
-  // From A's rim to the point of B that is furthest along A's axis, if that lies beside the cap.
-  Start start_at_cap_of_a() const {
-    const float sign = std::copysign(1.0f, t_.x());
-    const float half = sign * half_b_, rim = sign * rim_b_;
-    const Vector3<float> p((t_.x() - half * cosine_) - rim * sine_,
-                           (t_.y() - half * sine_) + rim * cosine_, t_.z());
-    const float above = sign * p.x() - half_a_;
-    const float from_axis = std::sqrt(p.y() * p.y() + p.z() * p.z());
-    const float share = (from_axis - rim_a_) / max(from_axis, kLeastRim);
-    Start start;
-    if (min(above, share) > 0) {
-      keep_if_wider({sign * above, p.y() * share, p.z() * share}, start);
-    }
-    return start;
-  }
-
-  // The same from B's rim.
-  Start start_at_cap_of_b() const {
-    const float sign = std::copysign(1.0f, cosine_ * t_.x() + sine_ * t_.y());
-    const Vector3<float> w(t_.x() - sign * half_a_, t_.y() - sign * rim_a_, t_.z());
-    const float above = sign * (cosine_ * w.x() + sine_ * w.y()) - half_b_;
-    const float across = cosine_ * w.y() - sine_ * w.x();
-    const float from_axis = std::sqrt(across * across + w.z() * w.z());
-    const float share = (from_axis - rim_b_) / max(from_axis, kLeastRim);
-    Start start;
-    if (min(above, share) > 0) {
-      const float along = sign * above, beside = across * share;
-      keep_if_wider(
-          {cosine_ * along - sine_ * beside, sine_ * along + cosine_ * beside, w.z() * share},
-          start);
-    }
-    return start;
-  }
-
+  // Of some starts, each a few steps; the best one goes on.
   void try_rims(Found& best) const {
-    Starts starts;
-    for (const float sign_a : {1.0f, -1.0f}) {
-      for (const float sign_b : {1.0f, -1.0f}) starts.add(start_between(sign_a, sign_b));
+    Starts starts(*this);
+    Vector3<float> of_best(0, 0, 0);  // the q of the best
+    Found rims;
+    for (size_t i = 0; i < kRimStarts; ++i) {
+      Vector3<float> n = starts.take_best();
+      const float along_b = cosine_ * n.x() + sine_ * n.y();
+      const Vector3<float> q =
+          between_caps(std::copysign(1.0f, n.x()), std::copysign(1.0f, along_b));
+      for (size_t k = 0; k < kRimFirstSteps; ++k) step(q, n);
+      const float wide = gap(n);
+      if (!(wide > rims.gap)) continue;
+      rims.gap = wide;
+      rims.n = n;
+      of_best = q;
     }
-    starts.add(start_at_cap_of_a());
-    starts.add(start_at_cap_of_b());
-    for (const Start& start : {starts.first, starts.second}) {
-      Vector3<float> n = start.n;
-      const Vector3<float> q = between_caps(start.sign_a, start.sign_b);
-      bool has_ended = false;
-      for (size_t i = 0; i < kRimSteps; ++i) has_ended = step(q, n);
-      best.keep_if_wider({gap(n), n, false, false, has_ended});
-    }
+    for (size_t k = 0; k < kRimLastSteps; ++k) rims.has_ended = step(of_best, rims.n);
+    rims.gap = gap(rims.n);
+    best.keep_if_wider(rims);
   }
 
   // A step of Newton's method for n . q - rim_a |n x u| - rim_b |n x v|, in the plane across n.
@@ -274,27 +284,28 @@ class CylinderPair {
     const float over_a = 1 / off_a, over_b = 1 / off_b;
     const Vector3<float> b_axis(cosine_, sine_, 0);
     // One direction of the plane is across A's axis, too.
-    const Vector3<float> one(0, -(n.z() * over_a), n.y() * over_a), two = cross(n, one);
+    const Vector3<float> first(0, -(n.z() * over_a), n.y() * over_a), second = cross(n, first);
     const Vector3<float> side = cross(b_axis, n) * over_b;
-    const float c = dot(side, one), s = dot(side, two);
+    const float c = dot(side, first), s = dot(side, second);
     const Vector3<float> out_a(0, n.y() * over_a, n.z() * over_a);
     const Vector3<float> out_b = (n - b_axis * along_b) * over_b;
     const Vector3<float> way = (q - out_a * rim_a_) - out_b * rim_b_;
-    const float height = dot(way, n), slope_one = dot(way, one), slope_two = dot(way, two);
+    const float height = dot(way, n), slope_one = dot(way, first), slope_two = dot(way, second);
     const float bend_a = rim_a_ * over_a, bend_b = rim_b_ * over_b;
-    const float one_one = -(bend_a + bend_b * (c * c)) - height;
-    const float one_two = -(bend_b * (c * s));
-    const float two_two = -(bend_b * (s * s)) - height;
-    const float determinant = one_one * two_two - one_two * one_two;
-    const bool is_peak = one_one < 0 && determinant > kLeastBend;
-    const float over =
-        is_peak ? 1 / determinant : 1 / (((bend_a + bend_b) + std::fabs(height)) + kShortArc);
-    const float by_one = (is_peak ? one_two * slope_two - two_two * slope_one : slope_one) * over;
-    const float by_two = (is_peak ? one_two * slope_one - one_one * slope_two : slope_two) * over;
+    const float one = -(bend_a + bend_b * (c * c)) - height;
+    const float two = -(bend_b * (s * s)) - height, both = -(bend_b * (c * s));
+    const float half = (one - two) * 0.5f, mean = (one + two) * 0.5f;
+    const float spread = std::sqrt(half * half + both * both);
+    const float greater = mean + spread;
+    const float lower = greater < 0 ? 0.0f : (greater + kSaddleShare * spread) + kSaddle;
+    const float one_one = one - lower, two_two = two - lower;
+    const float over = 1 / (one_one * two_two - both * both);
+    const float by_one = (both * slope_two - two_two * slope_one) * over;
+    const float by_two = (both * slope_one - one_one * slope_two) * over;
     const float length = std::sqrt(by_one * by_one + by_two * by_two);
     const float most = kRimStep * min(off_a, off_b);
     const float share = length > most ? most / length : 1.0f;
-    Vector3<float> next = n + (one * (by_one * share) + two * (by_two * share));
+    Vector3<float> next = n + (first * (by_one * share) + second * (by_two * share));
     next.z() = max(next.z(), 0.0f);
     n = next * (1 / std::sqrt(dot(next, next)));
     return length <= kLastArc;

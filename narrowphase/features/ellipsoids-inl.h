@@ -33,26 +33,27 @@ class EllipsoidPairLanes {
 
   HWY_INLINE EllipsoidContactLanes find() const {
     Starts starts(*this);
-    const F zero = splat(0);
-    F3 best_n = {zero, zero, splat(1)};
-    F best_gap = splat(-FLT_MAX), best_rank = hn::Sub(best_gap, splat(kNotEnded));
-    Mask has_ended = no_lanes();
-    for (size_t i = 0; i < kEllipsoidStarts; ++i) {
-      F3 n = starts.take_best();
-      Mask ends = no_lanes();
-      for (size_t k = 0; k < kEllipsoidSteps; ++k) ends = step(n);
-      const F wide = gap(n);
-      const F rank = hn::Sub(wide, hn::IfThenZeroElse(ends, splat(kNotEnded)));
-      const Mask wider = hn::Gt(rank, best_rank);
-      best_rank = hn::IfThenElse(wider, rank, best_rank);
-      best_n = select(wider, n, best_n);
-      has_ended = hn::Or(hn::And(wider, ends), hn::AndNot(wider, has_ended));
+    std::array<F3, kEllipsoidStarts> n;
+    for (F3& start : n) start = starts.take_best();
+    // All together: one step waits for its own roots and quotients.
+    for (size_t k = 0; k < kEllipsoidFirstSteps; ++k) {
+      for (F3& way : n) step(way);
     }
-    const Reach reach(*this, best_n);
-    const F separation = hn::Sub(dot(best_n, t_), hn::Add(reach.height_a, reach.height_b));
-    const F3 aside = ((t_ - reach.on_a) - reach.on_b) - best_n * separation;
+    F3 best = {splat(0), splat(0), splat(1)};
+    F most = splat(-FLT_MAX);
+    for (const F3& way : n) {
+      const F wide = gap(way);
+      const Mask wider = hn::Gt(wide, most);
+      most = hn::IfThenElse(wider, wide, most);
+      best = select(wider, way, best);
+    }
+    Mask has_ended = no_lanes();
+    for (size_t k = 0; k < kEllipsoidLastSteps; ++k) has_ended = step(best);
+    const Reach reach(*this, best);
+    const F separation = hn::Sub(dot(best, t_), hn::Add(reach.height_a, reach.height_b));
+    const F3 aside = ((t_ - reach.on_a) - reach.on_b) - best * separation;
     const Mask is_facing = hn::Le(dot(aside, aside), splat(kBesideCore * kBesideCore));
-    return {separation, best_n, reach.on_a, hn::And(has_ended, is_facing)};
+    return {separation, best, reach.on_a, hn::And(has_ended, is_facing)};
   }
 
  private:
@@ -84,21 +85,15 @@ class EllipsoidPairLanes {
     HWY_INLINE explicit Starts(const EllipsoidPairLanes& pair) {
       add(pair.t_, pair);
       for (const F3& row : pair.b_) add(row, pair);
-      constexpr float kEdge = 0.707106781f, kCorner = 0.577350269f;
-      constexpr float kFixed[kCount - 4][3] = {{1, 0, 0},
-                                               {0, 1, 0},
-                                               {0, 0, 1},
-                                               {kEdge, kEdge, 0},
-                                               {kEdge, -kEdge, 0},
-                                               {kEdge, 0, kEdge},
-                                               {kEdge, 0, -kEdge},
-                                               {0, kEdge, kEdge},
-                                               {0, kEdge, -kEdge},
-                                               {kCorner, kCorner, kCorner},
-                                               {kCorner, kCorner, -kCorner},
-                                               {kCorner, -kCorner, kCorner},
-                                               {-kCorner, kCorner, kCorner}};
-      for (const auto& d : kFixed) add({splat(d[0]), splat(d[1]), splat(d[2])}, pair);
+      const F zero = splat(0), one = splat(1);
+      add({one, zero, zero}, pair);
+      add({zero, one, zero}, pair);
+      add({zero, zero, one}, pair);
+      for (const F3& row : pair.b_) {
+        add({zero, hn::Neg(row.z), row.y}, pair);
+        add({row.z, zero, hn::Neg(row.x)}, pair);
+        add({hn::Neg(row.y), row.x, zero}, pair);
+      }
     }
 
     HWY_INLINE F3 take_best() {
@@ -110,7 +105,7 @@ class EllipsoidPairLanes {
         best = select(wider, n_[i], best);
       }
       for (size_t i = 0; i < kCount; ++i) {
-        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kApart));
+        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kEllipsoidsApart));
         gap_[i] = hn::IfThenElse(is_near, splat(-FLT_MAX), gap_[i]);
       }
       return best;
@@ -126,9 +121,9 @@ class EllipsoidPairLanes {
       ++count_;
     }
 
-    static constexpr size_t kCount = 17;
-    F3 n_[kCount];
-    F gap_[kCount];
+    static constexpr size_t kCount = 16;
+    std::array<F3, kCount> n_;
+    std::array<F, kCount> gap_;
     size_t count_ = 0;
   };
 

@@ -47,29 +47,26 @@ class EllipsoidPair {
 
   EllipsoidContact find() const {
     Starts starts(*this);
-    Found best;
+    Vector3<float> best(0, 0, 1);
+    float most = -kLargest;
     for (size_t i = 0; i < kEllipsoidStarts; ++i) {
-      Found found{0, starts.take_best(), false};
-      for (size_t k = 0; k < kEllipsoidSteps; ++k) found.has_ended = step(found.n);
-      found.gap = gap(found.n);
-      if (found.rank() > best.rank()) best = found;
+      Vector3<float> n = starts.take_best();
+      for (size_t k = 0; k < kEllipsoidFirstSteps; ++k) step(n);
+      const float wide = gap(n);
+      if (!(wide > most)) continue;
+      most = wide;
+      best = n;
     }
-    const Reach reach(*this, best.n);
-    const float separation = dot(best.n, t_) - (reach.height_a + reach.height_b);
-    const Vector3<float> aside = ((t_ - reach.on_a) - reach.on_b) - best.n * separation;
+    bool has_ended = false;
+    for (size_t k = 0; k < kEllipsoidLastSteps; ++k) has_ended = step(best);
+    const Reach reach(*this, best);
+    const float separation = dot(best, t_) - (reach.height_a + reach.height_b);
+    const Vector3<float> aside = ((t_ - reach.on_a) - reach.on_b) - best * separation;
     const bool is_facing = dot(aside, aside) <= kBesideCore * kBesideCore;
-    return {separation, best.n, reach.on_a, best.has_ended && is_facing};
+    return {separation, best, reach.on_a, has_ended && is_facing};
   }
 
  private:
-  struct Found {
-    float gap = -kLargest;
-    Vector3<float> n{0, 0, 1};
-    bool has_ended = false;
-
-    float rank() const { return gap - (has_ended ? 0.0f : kNotEnded); }
-  };
-
   Vector3<float> on_rows(const Vector3<float>& n) const {
     return {dot(b_[0], n), dot(b_[1], n), dot(b_[2], n)};
   }
@@ -99,28 +96,28 @@ class EllipsoidPair {
     }
   };
 
-  // The directions to start from, and their gaps.
+  // The directions to start from, and their gaps: between the middles, along the axes of both, and
+  // across one axis of each.
   class Starts {
    public:
     explicit Starts(const EllipsoidPair& pair) {
-      constexpr float kEdge = 0.707106781f, kCorner = 0.577350269f;
+      const Vector3<float>&p = pair.b_[0], &q = pair.b_[1], &r = pair.b_[2];
       const Vector3<float> directions[kCount] = {pair.t_,
-                                                 pair.b_[0],
-                                                 pair.b_[1],
-                                                 pair.b_[2],
+                                                 p,
+                                                 q,
+                                                 r,
                                                  {1, 0, 0},
                                                  {0, 1, 0},
                                                  {0, 0, 1},
-                                                 {kEdge, kEdge, 0},
-                                                 {kEdge, -kEdge, 0},
-                                                 {kEdge, 0, kEdge},
-                                                 {kEdge, 0, -kEdge},
-                                                 {0, kEdge, kEdge},
-                                                 {0, kEdge, -kEdge},
-                                                 {kCorner, kCorner, kCorner},
-                                                 {kCorner, kCorner, -kCorner},
-                                                 {kCorner, -kCorner, kCorner},
-                                                 {-kCorner, kCorner, kCorner}};
+                                                 {0, -p.z(), p.y()},
+                                                 {p.z(), 0, -p.x()},
+                                                 {-p.y(), p.x(), 0},
+                                                 {0, -q.z(), q.y()},
+                                                 {q.z(), 0, -q.x()},
+                                                 {-q.y(), q.x(), 0},
+                                                 {0, -r.z(), r.y()},
+                                                 {r.z(), 0, -r.x()},
+                                                 {-r.y(), r.x(), 0}};
       for (size_t i = 0; i < kCount; ++i) {
         const float squared = dot(directions[i], directions[i]);
         const float height = dot(directions[i], pair.t_);
@@ -140,13 +137,13 @@ class EllipsoidPair {
         best = n_[i];
       }
       for (size_t i = 0; i < kCount; ++i) {
-        if (dot(n_[i], best) > kApart) gap_[i] = -kLargest;
+        if (dot(n_[i], best) > kEllipsoidsApart) gap_[i] = -kLargest;
       }
       return best;
     }
 
    private:
-    static constexpr size_t kCount = 17;
+    static constexpr size_t kCount = 16;
     std::array<Vector3<float>, kCount> n_;
     std::array<float, kCount> gap_;
   };

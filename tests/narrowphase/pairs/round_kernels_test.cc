@@ -156,10 +156,9 @@ TEST_P(RoundKernels, FindTheBestDirection) {
   EXPECT_GT(tally.overlapping, kPairs * 2 / 5);
   EXPECT_LT(tally.overlapping, kPairs * 3 / 5);
   EXPECT_LE(tally.unsure, kPairs / 100);
-  // Two rims, and two ellipsoids, may keep the second-best of several best directions.
-  const bool may_miss = kind_a == ShapeKind::cylinder || kind_a == ShapeKind::ellipsoid;
-  EXPECT_LE(tally.wrong, may_miss ? kPairs / 5000 : 0);
-  EXPECT_LE(tally.worst, 0.02);
+  // Two rims, and two ellipsoids, may keep the second-best of several best directions: one in a
+  // million does, and of needles and plates one in 400,000 and in 30,000. None is among these pairs.
+  EXPECT_EQ(tally.wrong, 0u) << "by up to " << tally.worst;
 }
 
 std::string kinds_name(const testing::TestParamInfo<Kinds>& info) {
