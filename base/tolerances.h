@@ -113,7 +113,7 @@ inline constexpr float kLeastWay = 0x1p-60f;
 // share of the difference of both and in scaled units.
 inline constexpr size_t kEllipsoidStarts = 4;
 inline constexpr float kEllipsoidsApart = 0.8f;
-inline constexpr size_t kEllipsoidFirstSteps = 6;
+inline constexpr size_t kEllipsoidFirstSteps = 5;
 inline constexpr size_t kEllipsoidLastSteps = 2;
 inline constexpr float kLongTurn = 0.4f;
 inline constexpr float kSaddleShare = 0.2f;

@@ -74,12 +74,16 @@ class RoundGjkLanes {
   D3 point, last;
   D squared, gap;
   DoubleMask is_nearest = no_lanes_of<D>(), is_apart = no_lanes_of<D>(),
-             is_around = no_lanes_of<D>();
+             is_within = no_lanes_of<D>(), is_around = no_lanes_of<D>();
 
-  HWY_INLINE RoundGjkLanes(const RoundPairLanes& cores, const D3& between, bool decides_separate) {
+  HWY_INLINE RoundGjkLanes(const RoundPairLanes& cores, const D3& between,
+                           const scalar::RoundGoal& goal) {
     const DoubleTag tag;
-    const D clear = hn::Add(cores.radius, splat_double(scalar::kClearRoundGap));
-    clear_squared_ = decides_separate ? hn::Mul(clear, clear) : splat_double(HUGE_VAL);
+    const D least = splat_double(scalar::kClearRoundGap), zero = hn::Zero(tag);
+    const D clear = hn::Add(cores.radius, least);
+    const D within = max(hn::Sub(cores.radius, least), zero);
+    clear_squared_ = goal.decides_separate ? hn::Mul(clear, clear) : splat_double(HUGE_VAL);
+    within_squared_ = goal.decides_overlapping ? hn::Mul(within, within) : zero;
     constexpr CoreVector kOff = scalar::kOffPlane;
     const D3 start = between + D3{splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
     const D3 first_of_a = cores.a.furthest(start);
@@ -121,6 +125,9 @@ class RoundGjkLanes {
   // The simplex has no more than `kPlaces` corners.
   template <size_t kPlaces>
   HWY_INLINE void run_round(const RoundPairLanes& cores, DoubleMask& is_open) {
+    const DoubleMask is_near = hn::And(is_open, hn::Lt(squared, within_squared_));
+    is_within = hn::Or(is_within, is_near);
+    is_open = hn::AndNot(is_near, is_open);
     const D3 next_of_a = cores.a.furthest(point);
     const D3 next = cores.b.furthest(-point) - next_of_a;
     const D product = dot(point, next);
@@ -157,13 +164,13 @@ class RoundGjkLanes {
     is_open = hn::And(is_open, hn::Gt(squared, splat_double(kTouchingSquared)));
   }
 
-  D clear_squared_;
+  D clear_squared_, within_squared_;
 };
 
 // As scalar::find_plain_round_gap(). `between`: from a point inside of A to one inside of B.
 HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const D3& between,
                                               const scalar::RoundGoal& goal) {
-  const RoundGjkLanes gjk(cores, between, goal.decides_separate);
+  const RoundGjkLanes gjk(cores, between, goal);
   const D distance = hn::Sqrt(gjk.squared), parted = hn::Div(gjk.gap, distance);
   const D slack =
       min(splat_double(kSameRoundWayOut), hn::Mul(splat_double(kSameRoundWay), distance));
@@ -172,7 +179,7 @@ HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const
               hn::Le(hn::Sub(distance, parted), slack));
   RoundGapLanes gap{hn::IfThenElse(gjk.is_apart, parted, distance),
                     gjk.point * hn::Div(splat_double(1), distance), gjk.point_of_a(),
-                    hn::Or(gjk.is_apart, is_distance)};
+                    hn::Or(hn::Or(gjk.is_apart, gjk.is_within), is_distance)};
   if (goal.decides_overlapping && !hn::AllFalse(DoubleTag(), gjk.is_around)) {
     const PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
     const D height = portal.squared_height();

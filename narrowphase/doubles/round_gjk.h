@@ -45,7 +45,7 @@ struct RoundGoal {
 
 class RoundGjk {
  public:
-  enum class End { unclear, nearest, apart, around };
+  enum class End { unclear, nearest, apart, within, around };
 
   End end = End::unclear;
   PlainSimplex simplex;    // corners of B - A
@@ -56,13 +56,18 @@ class RoundGjk {
   DifferencePoint last{};  // around zero: the fourth corner
 
   RoundGjk(const Core& a, const Core& b, FurthestPoint furthest, const RoundGoal& goal) {
-    const double clear = (a.radius + b.radius) + kClearRoundGap;
+    const double radius = a.radius + b.radius, clear = radius + kClearRoundGap;
+    const double within = goal.decides_overlapping ? max(radius - kClearRoundGap, 0.0) : 0;
     const DifferencePoint first =
         find_difference_point(a, b, (b.middle - a.middle) + kOffPlane, furthest);
     point = first.point;
     squared = dot(point, point);
     replace(0, first);
     for (int round = 0; round < kMostRoundRounds && squared > kTouchingSquared; ++round) {
+      if (squared < within * within) {
+        end = End::within;
+        return;
+      }
       const DifferencePoint next = find_difference_point(a, b, point, furthest);
       gap = dot(point, next.point);
       if (is_as_near(gap, squared) || simplex.holds(next.point)) {
@@ -111,7 +116,7 @@ class RoundGjk {
 };
 
 // The gap, if GJK settles it: the distance; where the decision alone is wanted, less than the
-// distance, or any depth.
+// distance of separate shapes, more than that of cores within their radii, or any depth.
 inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, CoreGap& gap) {
   using End = RoundGjk::End;
   if (gjk.end == End::around && goal.decides_overlapping) {
@@ -121,7 +126,7 @@ inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, Cor
     gap = {.size = -std::sqrt(squared), .normal = {1, 0, 0}, .is_proven = true};
     return squared > kProvenGap * kProvenGap;
   }
-  if (gjk.end != End::nearest && gjk.end != End::apart) return false;
+  if (gjk.end == End::unclear || gjk.end == End::around) return false;
   const double distance = std::sqrt(gjk.squared), parted = gjk.gap / distance;
   gap = {.size = gjk.end == End::apart ? parted : distance,
          .normal = gjk.point * (1 / distance),
@@ -129,7 +134,7 @@ inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, Cor
          .has_point = true,
          .of_a = gjk.point_of_a()};
   const double slack = min(kSameRoundWayOut, kSameRoundWay * distance);
-  return gjk.end == End::apart || (distance > kTouchingRound && distance - parted <= slack);
+  return gjk.end != End::nearest || (distance > kTouchingRound && distance - parted <= slack);
 }
 
 }  // namespace carom::scalar

@@ -50,6 +50,7 @@ class RoundRows {
   }
 
   void run(size_t row) {
+    fetch(row + kPairsAhead);
     const Pair pair = batch_.pairs[row];
     if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) {
       std::array<float, 10> nothing;
@@ -80,6 +81,26 @@ class RoundRows {
   }
 
  private:
+  static constexpr size_t kPairsAhead = 8;
+
+  // Asks for the bodies of a row to come: they lie anywhere in memory.
+  void fetch(size_t row) const {
+    if (row >= batch_.count) return;
+    fetch_body(batch_.a, kind_a_, batch_.pairs[row].a);
+    fetch_body(batch_.b, kind_b_, batch_.pairs[row].b);
+  }
+  static void fetch_body(const BatchSide& side, ShapeKind kind, size_t body) {
+    const auto ask = [](const void* base, size_t offset) {
+      __builtin_prefetch(static_cast<const char*>(base) + offset);
+    };
+    ask(side.records, body * side.record_stride);
+    ask(side.orientation.data, body * side.orientation.stride);
+    const uint32_t rows = row_count(kind);
+    if (rows == 0) return;
+    const size_t first = side.rows.first ? side.rows.first[body] : body * rows;
+    ask(side.rows.data, first * sizeof(Row));
+  }
+
   // False if lanes do not take the row.
   bool add(size_t row, Pair pair) {
     const size_t place = waiting_.count;
