@@ -82,8 +82,9 @@ inline constexpr float kEdgeBoundCosine = 0x1p-3f;
 inline constexpr float kWideArc = 0.99f;
 
 // Searches on arcs: samples of a quarter, their cosines, the steps of Newton's method, the longest
-// of them (three quarters of a sample), one where the curve is no peak, and one that is short
-// enough to be the last: the gap is then off by the square of what is left, the square of this.
+// of them (two thirds of a sample), one where the curve is no peak, and one that is short
+// enough to be the last: the gap is then off by the square of what is left, the square of this. A
+// search that has not ended counts less by kNotEnded.
 inline constexpr size_t kArcSamples = 9;
 inline constexpr float kArcCosines[kArcSamples] = {1.0f,         0.980785280f, 0.923879533f,
                                                    0.831469612f, 0.707106781f, 0.555570233f,
@@ -110,7 +111,7 @@ inline constexpr float kLeastWay = 0x1p-60f;
 // Searches for the widest gap of two ellipsoids: from how many directions, with a smaller cosine
 // between them than kEllipsoidsApart; the steps from each, those from the best of their ends, the
 // longest of them, and by how much a step at a saddle lowers the greater curvature below zero, as a
-// share of the difference of both and in scaled units.
+// share of the difference of both and in scaled units (of two rims as well).
 inline constexpr size_t kEllipsoidStarts = 4;
 inline constexpr float kEllipsoidsApart = 0.8f;
 inline constexpr size_t kEllipsoidFirstSteps = 5;
@@ -280,9 +281,9 @@ inline constexpr double kSameGap = 0x1p-40;
 inline constexpr double kSameWayOut = 0x1p-42;
 
 // The same of round cores, whose surface no number of faces reaches. GJK ends where the gap is less
-// than the distance by no more than this share of the cores' size; what it found is the distance if
-// the gap is less by no more than this share of it, and rounding has not turned it: if it is above
-// kTouchingRound. A depth may exceed its lower bound by kSameRoundWayOut, and its witness points
+// than the distance by no more than kSameRoundGap of the cores' size; what it found is the distance
+// if the gap is less by no more than kSameRoundWay of it, and rounding has not turned it: if it is
+// above kTouchingRound. A depth may exceed its lower bound by kSameRoundWayOut, and its witness points
 // may miss each other by kRoundAside.
 inline constexpr double kSameRoundGap = 0x1p-40;
 inline constexpr double kSameRoundWay = 0x1p-20;

@@ -60,6 +60,32 @@ HWY_INLINE Slabs float_rounding(Slabs v) {
   return hn::Add(hn::Mul(hn::Abs(v), all_slabs(kFloatRounding)), all_slabs(kLeastFloat));
 }
 
+// The ends of the projection of the core's points, or of the ellipsoids about them.
+struct PointEnds {
+  Slabs lower, upper;
+
+  HWY_INLINE PointEnds(const SlabDirections& along, const DopCore& core) {
+    const Slabs a = along.project(core.points[0]);
+    const Slabs b = along.project(core.points[1]);
+    const Slabs c = along.project(core.points[2]);
+    if (!core.is_round) {
+      lower = hn::Min(hn::Min(a, b), c);
+      upper = hn::Max(hn::Max(a, b), c);
+      return;
+    }
+    const auto square = [&](const Double3& v) HWY_ATTR {
+      const Slabs on = along.project(v);
+      return hn::Mul(on, on);
+    };
+    const auto& [x, y, z] = core.half_axes;
+    const Slabs reach = hn::Sqrt(hn::Add(hn::Add(square(x), square(y)), square(z)));
+    const auto share = [&](size_t i) HWY_ATTR { return hn::Mul(reach, all_slabs(core.shares[i])); };
+    const Slabs of_a = share(0), of_b = share(1), of_c = share(2);
+    lower = hn::Min(hn::Min(hn::Sub(a, of_a), hn::Sub(b, of_b)), hn::Sub(c, of_c));
+    upper = hn::Max(hn::Max(hn::Add(a, of_a), hn::Add(b, of_b)), hn::Add(c, of_c));
+  }
+};
+
 void write_record(const SlabColumns& directions, const DopCore& core, const Double3& position,
                   float* record) {
   const Slabs slack = all_slabs(slack_of(core, position));
@@ -68,16 +94,14 @@ void write_record(const SlabColumns& directions, const DopCore& core, const Doub
     const SlabDirections along(directions, s);
     const Slabs limit = all_slabs(kBeyondFloats);
     const Slabs at = hn::Min(hn::Max(along.project(position), hn::Neg(limit)), limit);
-    const Slabs a = along.project(core.points[0]);
-    const Slabs b = along.project(core.points[1]);
-    const Slabs c = along.project(core.points[2]);
+    const PointEnds ends(along, core);
     const Slabs box = hn::Add(
         hn::Add(hn::Abs(along.project(core.edges[0])), hn::Abs(along.project(core.edges[1]))),
         hn::Abs(along.project(core.edges[2])));
     const Slabs length = hn::Load(SlabTag(), directions.length + s);
     const Slabs reach = hn::Add(hn::Add(box, hn::Mul(radius, length)), slack);
-    const Slabs lower = hn::Add(at, hn::Sub(hn::Min(hn::Min(a, b), c), reach));
-    const Slabs upper = hn::Add(at, hn::Add(hn::Max(hn::Max(a, b), c), reach));
+    const Slabs lower = hn::Add(at, hn::Sub(ends.lower, reach));
+    const Slabs upper = hn::Add(at, hn::Add(ends.upper, reach));
     float* to = record + place_in_record(s);
     store_floats(hn::Min(hn::Sub(lower, float_rounding(lower)), all_slabs(FLT_MAX)), to);
     store_floats(hn::Max(hn::Add(upper, float_rounding(upper)), all_slabs(-FLT_MAX)), to + 4);

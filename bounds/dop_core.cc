@@ -65,6 +65,25 @@ DopCore triangle_core(const Turn& turn, const std::array<Row, kMostRows>& rows) 
   return core;
 }
 
+// `row`: as of an ellipsoid.
+DopCore ellipsoid_core(const Turn& turn, const Row& row) {
+  DopCore core;
+  core.is_round = true;
+  core.shares.fill(1);
+  core.half_axes = box_core(turn, row).edges;
+  core.radius = row[3];
+  return core;
+}
+
+// `row`: as of a cylinder or a cone; `top`: the share of the upper disc.
+DopCore axial_core(const Turn& turn, const Row& row, double top) {
+  DopCore core = ellipsoid_core(turn, {row[0], row[0], 0, row[3]});
+  const Double3 end = turned(turn, {0, 0, row[1]}), start = minus({}, end);
+  core.points = {start, start, end};
+  core.shares[2] = top;
+  return core;
+}
+
 DopCore turned_core(const BodyReader& reader, size_t i) {
   const std::array<Row, kMostRows> rows = reader.rows(i);
   const Turn turn = rotation_of(reader.orientation(i));
@@ -75,6 +94,12 @@ DopCore turned_core(const BodyReader& reader, size_t i) {
       return box_core(turn, rows[0]);
     case ShapeKind::rounded_box:
       return box_core(turn, rows[0], rows[0][3]);
+    case ShapeKind::cylinder:
+      return axial_core(turn, rows[0], 1);
+    case ShapeKind::cone:
+      return axial_core(turn, rows[0], 0);
+    case ShapeKind::ellipsoid:
+      return ellipsoid_core(turn, rows[0]);
     default:
       return triangle_core(turn, rows);
   }
@@ -89,6 +114,9 @@ DopCore dop_core(const BodyReader& reader, size_t i) {
     case ShapeKind::capsule:
     case ShapeKind::box:
     case ShapeKind::rounded_box:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::ellipsoid:
     case ShapeKind::triangle: {
       DopCore core = turned_core(reader, i);
       core.size = greatest_of(reader.rows(i));

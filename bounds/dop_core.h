@@ -1,5 +1,5 @@
-// Shapes as Minkowski sums of simple ones: the hull of three points, a box with any axes, and a
-// ball. The reach of a sum in a direction is the sum of their reaches.
+// Shapes as Minkowski sums of simple ones: the hull of three points, or of ellipsoids about them, a
+// box with any axes, and a ball. The reach of a sum in a direction is the sum of their reaches.
 #pragma once
 
 #include <array>
@@ -11,7 +11,11 @@ namespace carom {
 
 struct DopCore {
   std::array<Double3, 3> points{};  // relative to the position; some coincide if there are fewer
-  std::array<Double3, 3> edges{};   // half edges of the box; zero if there are fewer
+  // The ellipsoid about a point has these half axes, times the point's share.
+  bool is_round = false;
+  std::array<Double3, 3> half_axes{};
+  std::array<double, 3> shares{};
+  std::array<Double3, 3> edges{};  // half edges of the box; zero if there are fewer
   double radius = 0;
   double size = 0;  // at least the greatest coordinate of the shape in its own frame
 };

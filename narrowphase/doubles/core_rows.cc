@@ -52,8 +52,8 @@ HWY_INLINE DoubleMask find_crossing(const FacingPoints& a, const FacingPoints& b
   return hn::And(is_inside, hn::Gt(hn::Mul(slope, slope), least));
 }
 
-// The contact location on A as the first round of scalar::meeting_point() finds it. Lanes without
-// one are no longer found.
+// The contact location on A as the first round of scalar::meeting_point() finds it. Lanes for
+// which it finds none count as not found.
 HWY_INLINE D3 meeting_point(const CorePairLanes& cores, CoreGapLanes& gap) {
   const D one = splat_double(1), two = splat_double(2);
   const FacingPoints a = facing_points(cores.a, cores.count_a.get(), gap.normal);
@@ -107,7 +107,7 @@ class CoreVectorOfRows {
   HWY_INLINE void run_round(const RoundPairLanes& cores, const D3& between) {
     const RoundGapLanes gap =
         find_plain_round_gap(cores, between, {rows_.decides_separate, rows_.decides_only});
-    put_gap(gap.size, gap.normal, gap.of_a, gap.is_found, gap.is_found);
+    put_gap(gap.size, gap.normal, gap.of_a, gap.is_found, gap.is_proven);
   }
 
   // `on_a`: where A without its radius is nearest to B.

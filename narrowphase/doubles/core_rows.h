@@ -32,7 +32,8 @@ struct CoreRows {
     kColumns = 31,
   };
 
-  // Points of the cores, as the point inside: records of four floats, one to kMostPointsOfDoubles.
+  // Points of the cores, in metres before they are turned: records of four floats, one to
+  // kMostPointsOfDoubles.
   struct Side {
     bool is_round = false;  // all rows are, or none is: an ellipsoid lies about each point
     std::array<const float*, kMost> points;
@@ -40,8 +41,8 @@ struct CoreRows {
   };
 
   size_t count = 0;
-  bool decides_only = false;
-  bool decides_separate = false;  // of round cores: less than their distance will do
+  bool decides_only = false;      // no contacts, nor depths
+  bool decides_separate = false;  // of separate round cores less than their distance will do
   alignas(64) std::array<std::array<double, kMost>, kColumns> column;
   Side a, b;
 
@@ -53,10 +54,10 @@ struct CoreRows {
   std::array<bool, kMost> is_found, is_unsure;
 };
 
-// Finds the answers of up to kMost rows of valid bodies; on any thread. They have the bits of the
-// scalar form (scalar::core_separation()) on every instruction set, which finds more: of gaps
-// find_plain_gap() or find_plain_round_gap() alone, and of contact locations without a round core
-// the first round of scalar::meeting_point().
+// Finds the answers of up to kMost rows of valid bodies; on any thread. On every instruction set
+// they have the bits of the scalar form, scalar::core_separation() of the gap that
+// find_plain_gap() or find_plain_round_gap() finds. Lanes go no further than these, nor, for the
+// contact location of cores that are not round, than the first round of scalar::meeting_point().
 using FindCoreGaps = void (*)(CoreRows& rows);
 FindCoreGaps find_core_gaps();
 

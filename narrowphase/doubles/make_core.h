@@ -31,39 +31,41 @@ inline void make_core(const CapsuleShape<double>& capsule, const Quaternion<doub
   core.middle = core_vector(rotate(turn, Vector3d((capsule.a + capsule.b) / 2)) + offset);
 }
 
-// The axes of the body are half axes of the ellipsoids, in these lengths.
-inline void make_round_core(const Vector3d& lengths, double half_length,
-                            const std::array<double, 2>& shares, const Rotation<double>& turn,
-                            const Vector3d& offset, double rounding, Core& core) {
+// A round core in the frame of its shape: points at either end of the z axis, or one in the middle,
+// and an ellipsoid with these half axes about each, times the share of the point. A half axis of
+// zero makes it flat.
+struct RoundNumbers {
+  Vector3d half_axes;
+  double half_length;
+  std::array<double, 2> shares;  // of the lower point, and of the upper one
+};
+
+inline RoundNumbers round_numbers(const CylinderShape<double>& cylinder) {
+  return {{cylinder.radius, cylinder.radius, 0}, cylinder.half_length, {1, 1}};
+}
+inline RoundNumbers round_numbers(const ConeShape<double>& cone) {
+  return {{cone.radius, cone.radius, 0}, cone.half_length, {1, 0}};
+}
+inline RoundNumbers round_numbers(const EllipsoidShape<double>& ellipsoid) {
+  return {ellipsoid.semi_axes, 0, {1, 1}};
+}
+
+template <RoundShape S>
+void make_core(const S& shape, const Quaternion<double>& q, const Vector3d& offset, Core& core) {
+  const RoundNumbers numbers = round_numbers(shape);
+  const Rotation<double> turn = rotation_of(q);
   const auto turned = [&](const Vector3d& v) { return rotate(turn, v); };
-  const Vector3d top(0, 0, half_length);
-  core.resize(half_length > 0 ? 2 : 1);
+  const Vector3d top(0, 0, numbers.half_length), &half = numbers.half_axes;
+  core.resize(numbers.half_length > 0 ? 2 : 1);
   core.set(0, core_vector(turned(-top) + offset));
-  if (half_length > 0) core.set(1, core_vector(turned(top) + offset));
+  if (numbers.half_length > 0) core.set(1, core_vector(turned(top) + offset));
   core.pad();
-  core.make_round({{core_vector(turned(Vector3d(lengths.x(), 0, 0))),
-                    core_vector(turned(Vector3d(0, lengths.y(), 0))),
-                    core_vector(turned(Vector3d(0, 0, lengths.z())))},
-                   shares});
-  core.radius = rounding;
+  core.make_round({{core_vector(turned(Vector3d(half.x(), 0, 0))),
+                    core_vector(turned(Vector3d(0, half.y(), 0))),
+                    core_vector(turned(Vector3d(0, 0, half.z())))},
+                   numbers.shares});
+  core.radius = shape.rounding;
   core.middle = core_vector(offset);
-}
-
-inline void make_core(const CylinderShape<double>& cylinder, const Quaternion<double>& q,
-                      const Vector3d& offset, Core& core) {
-  make_round_core({cylinder.radius, cylinder.radius, 0}, cylinder.half_length, {1, 1},
-                  rotation_of(q), offset, cylinder.rounding, core);
-}
-
-inline void make_core(const ConeShape<double>& cone, const Quaternion<double>& q,
-                      const Vector3d& offset, Core& core) {
-  make_round_core({cone.radius, cone.radius, 0}, cone.half_length, {1, 0}, rotation_of(q), offset,
-                  cone.rounding, core);
-}
-
-inline void make_core(const EllipsoidShape<double>& ellipsoid, const Quaternion<double>& q,
-                      const Vector3d& offset, Core& core) {
-  make_round_core(ellipsoid.semi_axes, 0, {1, 1}, rotation_of(q), offset, ellipsoid.rounding, core);
 }
 
 inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,

@@ -54,7 +54,7 @@ struct RoundPairLanes {
 struct RoundGapLanes {
   D size;
   D3 normal, of_a;
-  DoubleMask is_found;
+  DoubleMask is_found, is_proven;
 };
 
 // As scalar::is_as_near().
@@ -179,7 +179,9 @@ HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const
               hn::Le(hn::Sub(distance, parted), slack));
   RoundGapLanes gap{hn::IfThenElse(gjk.is_apart, parted, distance),
                     gjk.point * hn::Div(splat_double(1), distance), gjk.point_of_a(),
-                    hn::Or(hn::Or(gjk.is_apart, gjk.is_within), is_distance)};
+                    hn::Or(hn::Or(gjk.is_apart, gjk.is_within), is_distance),
+                    hn::Or(hn::Le(distance, cores.radius),
+                           hn::Gt(parted, hn::Add(cores.radius, splat_double(kProvenGap))))};
   if (goal.decides_overlapping && !hn::AllFalse(DoubleTag(), gjk.is_around)) {
     const PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
     const D height = portal.squared_height();
@@ -187,6 +189,7 @@ HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const
         hn::And(gjk.is_around, hn::Gt(height, splat_double(kProvenGap * kProvenGap)));
     gap.size = hn::IfThenElse(is_deep, hn::Neg(hn::Sqrt(height)), gap.size);
     gap.is_found = hn::Or(gap.is_found, is_deep);
+    gap.is_proven = hn::Or(gap.is_proven, is_deep);
   }
   return gap;
 }

@@ -24,12 +24,13 @@ inline constexpr int kMostRoundRounds = 64;
 // Less than this share of a square is rounding.
 inline constexpr double kRoundedSquare = 0x1p-50;
 
-// A decision alone takes a gap above this to be no touch: it is then greater than kProvenGap.
+// A decision alone needs cores to be apart, or within their radii, by more than this, which
+// exceeds kProvenGap.
 inline constexpr double kClearRoundGap = 0x1p-30;
 
-// Whether GJK has ended: the gap along a vector, times its length, is so near to the square of the
-// length. Distances are then known within kSameRoundGap, and less than what turns the vector
-// noticeably, but more than rounding.
+// Whether GJK has ended: the length of the vector exceeds the gap along it by no more than
+// kSameRoundGap and a quarter of kSameRoundWay of itself, or by rounding. `gap`: times the length;
+// `squared`: the square of the length.
 inline bool is_as_near(double gap, double squared) {
   const double less = squared - gap;
   return less <= kRoundedSquare * squared ||
@@ -37,7 +38,7 @@ inline bool is_as_near(double gap, double squared) {
           less * less <= (kSameRoundGap * kSameRoundGap) * squared);
 }
 
-// What a caller wants to know: of separate shapes, and of overlapping ones, the decision alone.
+// Of which shapes the caller wants the decision alone.
 struct RoundGoal {
   bool decides_separate = false;
   bool decides_overlapping = false;
@@ -45,7 +46,13 @@ struct RoundGoal {
 
 class RoundGjk {
  public:
-  enum class End { unclear, nearest, apart, within, around };
+  enum class End {
+    unclear,
+    nearest,  // `point` is the nearest one
+    apart,    // surely separate: the gap exceeds the radii
+    within,   // surely overlapping: `point` is nearer than the radii
+    around,   // zero lies inside of four corners
+  };
 
   End end = End::unclear;
   PlainSimplex simplex;    // corners of B - A
@@ -53,10 +60,12 @@ class RoundGjk {
   CoreVector point;        // nearest to zero
   double squared;          // its distance
   double gap = 0;          // at the end: between the projections on `point`, times its length
+  double radius;           // of both together
   DifferencePoint last{};  // around zero: the fourth corner
 
-  RoundGjk(const Core& a, const Core& b, FurthestPoint furthest, const RoundGoal& goal) {
-    const double radius = a.radius + b.radius, clear = radius + kClearRoundGap;
+  RoundGjk(const Core& a, const Core& b, FurthestPoint furthest, const RoundGoal& goal)
+      : radius(a.radius + b.radius) {
+    const double clear = radius + kClearRoundGap;
     const double within = goal.decides_overlapping ? max(radius - kClearRoundGap, 0.0) : 0;
     const DifferencePoint first =
         find_difference_point(a, b, (b.middle - a.middle) + kOffPlane, furthest);
@@ -115,8 +124,8 @@ class RoundGjk {
   }
 };
 
-// The gap, if GJK settles it: the distance; where the decision alone is wanted, less than the
-// distance of separate shapes, more than that of cores within their radii, or any depth.
+// The gap, if GJK settles it: the distance. Where the decision alone is wanted: less than the
+// distance of separate shapes, no less than that of cores within their radii, and less than a depth.
 inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, CoreGap& gap) {
   using End = RoundGjk::End;
   if (gjk.end == End::around && goal.decides_overlapping) {
@@ -130,7 +139,7 @@ inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, Cor
   const double distance = std::sqrt(gjk.squared), parted = gjk.gap / distance;
   gap = {.size = gjk.end == End::apart ? parted : distance,
          .normal = gjk.point * (1 / distance),
-         .is_proven = true,
+         .is_proven = distance <= gjk.radius || parted > gjk.radius + kProvenGap,
          .has_point = true,
          .of_a = gjk.point_of_a()};
   const double slack = min(kSameRoundWayOut, kSameRoundWay * distance);

@@ -8,11 +8,13 @@
 // - a cap: along its axis;
 // - two sides: across both axes;
 // - a side and a rim: the best direction of the circle across the axis, by Newton's method from the
-//   best of samples at either end of a quarter, where all but one maximum repeat;
-// - two rims: the best in the cone of t and both axes (a projection onto it takes no product down),
-//   by Newton's method on the sphere from some sums: a few steps from each of the best that lie
-//   apart, and more from the best of these. At a saddle both curvatures are lowered first, so that
-//   the step leads upwards.
+//   best of some samples. The other quarters of the circle mirror that of t; it may have two
+//   maxima, so that each of its halves has a search;
+// - two rims: the best in the cone of t and both axes (a projection onto it makes no product
+//   smaller), by Newton's method on the sphere. It starts from sums of the axes and the way between
+//   two caps, and from the ways of either rim to the other shape's furthest point: a few steps from
+//   each of the best that lie apart, and more from the best of these. At a saddle both curvatures
+//   are lowered first, so that the step leads upwards.
 //
 // Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
 // face each other along the best one: then no direction has a greater gap, if the shapes are apart.
@@ -194,7 +196,7 @@ class CylinderPair {
     }
 
    private:
-    // Never the best if the way vanishes, or if it may not be.
+    // Never the best if the way vanishes, or without `may`.
     void add(const Vector3<float>& way, bool may = true) {
       const float squared = dot(way, way);
       n_[count_] = way * (1 / std::sqrt(max(squared, kLeastWay)));

@@ -2,8 +2,9 @@
 //
 // Along a unit vector n it is n . t - |D n| - |M n|: D holds the semi-axes of A, the rows of M
 // those of B, and t leads from the middle of A to that of B. The separation is the greatest gap of
-// all directions. Newton's method on the sphere finds it from the best of some directions; at a
-// saddle both curvatures are lowered first, so that the step leads upwards.
+// all directions. Newton's method on the sphere finds it from some directions: a few steps from each
+// of the best that lie apart, and more from the best of these. At a saddle both curvatures are
+// lowered first, so that the step leads upwards.
 //
 // Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
 // face each other along the best one: then no direction has a greater gap, if the shapes are apart.

@@ -26,7 +26,7 @@ struct StatedCore {
   const float* points;
   size_t count;
   Eigen::Vector3d middle;
-  double size;  // an upper bound of all coordinates, within a factor of two
+  double size;  // within a factor of two of all coordinates
   double radius = 0;
   bool is_round = false;
   // Of round ones: half axes of the ellipsoid about a point, and the share of each point.
@@ -66,38 +66,26 @@ inline StatedCore stated_core(const scalar::HullShape<double>& hull, OwnPoints&)
   const HullGeometry& geometry = *hull.geometry;
   return {geometry.records()[0].data(), geometry.points().size(), geometry.middle(), hull.size()};
 }
-// A plain one.
+// A triangle that is not special.
 inline StatedCore stated_core(const scalar::TriangleShape<double>& triangle, OwnPoints& own) {
   for (size_t i = 0; i < 3; ++i) put_point(triangle.corners[i], own[i]);
   return {own[0].data(), 3, scalar::middle_of(triangle), triangle.size()};
 }
 
-inline StatedCore stated_round(const Eigen::Vector3d& half_axes, double half_length,
-                               const std::array<double, 2>& share, double rounding, double size,
-                               OwnPoints& own) {
-  put_point({0, 0, -half_length}, own[0]);
-  put_point({0, 0, half_length}, own[1]);
-  return {own[0].data(),
-          half_length > 0 ? 2u : 1u,
-          Eigen::Vector3d::Zero(),
-          size,
-          rounding,
-          true,
-          half_axes,
-          share};
-}
-inline StatedCore stated_core(const scalar::CylinderShape<double>& c, OwnPoints& own) {
-  return stated_round({c.radius, c.radius, 0}, c.half_length, {1, 1}, c.rounding, c.size(), own);
-}
-inline StatedCore stated_core(const scalar::ConeShape<double>& c, OwnPoints& own) {
-  return stated_round({c.radius, c.radius, 0}, c.half_length, {1, 0}, c.rounding, c.size(), own);
-}
-inline StatedCore stated_core(const scalar::EllipsoidShape<double>& e, OwnPoints& own) {
-  return stated_round(e.semi_axes, 0, {1, 1}, e.rounding, e.size(), own);
+template <scalar::RoundShape S>
+StatedCore stated_core(const S& shape, OwnPoints& own) {
+  const scalar::RoundNumbers numbers = scalar::round_numbers(shape);
+  put_point({0, 0, -numbers.half_length}, own[0]);
+  put_point({0, 0, numbers.half_length}, own[1]);
+  return {own[0].data(),           numbers.half_length > 0 ? 2u : 1u,
+          Eigen::Vector3d::Zero(), shape.size(),
+          shape.rounding,          true,
+          numbers.half_axes,       numbers.shares};
 }
 
 // Adds a row unless lanes of doubles do not take it. Pose in metres; spheres and aabbs have the
-// identity for an orientation. The cores' own points lie in those of the row.
+// identity for an orientation. Points that are not those of a hull
+// have to lie in memory that stays until the row is tested, as own_a and own_b do.
 inline bool add_stated_row(const StatedCore& a, const StatedCore& b,
                            const scalar::PairPose<double>& pose, CoreRows& rows) {
   // Products of rotations and lengths vanish at no scale within these.
