@@ -283,8 +283,8 @@ inline constexpr double kSameWayOut = 0x1p-42;
 // The same of round cores, whose surface no number of faces reaches. GJK ends where the gap is less
 // than the distance by no more than kSameRoundGap of the cores' size; what it found is the distance
 // if the gap is less by no more than kSameRoundWay of it, and rounding has not turned it: if it is
-// above kTouchingRound. A depth may exceed its lower bound by kSameRoundWayOut, and its witness points
-// may miss each other by kRoundAside.
+// above kTouchingRound. A depth may exceed its lower bound by kSameRoundWayOut, and its witness
+// points may miss each other by kRoundAside.
 inline constexpr double kSameRoundGap = 0x1p-40;
 inline constexpr double kSameRoundWay = 0x1p-20;
 inline constexpr double kTouchingRound = 0x1p-34;

@@ -125,9 +125,6 @@ class RoundGjkLanes {
   // The simplex has no more than `kPlaces` corners.
   template <size_t kPlaces>
   HWY_INLINE void run_round(const RoundPairLanes& cores, DoubleMask& is_open) {
-    const DoubleMask is_near = hn::And(is_open, hn::Lt(squared, within_squared_));
-    is_within = hn::Or(is_within, is_near);
-    is_open = hn::AndNot(is_near, is_open);
     const D3 next_of_a = cores.a.furthest(point);
     const D3 next = cores.b.furthest(-point) - next_of_a;
     const D product = dot(point, next);
@@ -139,12 +136,20 @@ class RoundGjkLanes {
     gap = hn::IfThenElse(ends, product, gap);
     is_nearest = hn::Or(is_nearest, ends);
     is_open = hn::AndNot(ends, is_open);
-    const DoubleMask is_clear =
-        hn::And(hn::And(is_open, hn::Gt(product, hn::Zero(DoubleTag()))),
-                hn::Gt(hn::Mul(product, product), hn::Mul(clear_squared_, squared)));
-    gap = hn::IfThenElse(is_clear, product, gap);
+    const DoubleMask parts = hn::And(is_open, hn::Gt(product, hn::Zero(DoubleTag())));
+    const auto is_beyond = [&](D square) HWY_ATTR {
+      return hn::And(parts, hn::Gt(hn::Mul(product, product), hn::Mul(square, squared)));
+    };
+    const DoubleMask is_clear = is_beyond(clear_squared_);
+    constexpr double kLeast = scalar::kClearRoundGap;
+    const DoubleMask is_near = hn::AndNot(
+        is_clear,
+        hn::And(is_beyond(splat_double(kLeast * kLeast)), hn::Lt(squared, within_squared_)));
+    const DoubleMask is_decided = hn::Or(is_clear, is_near);
+    gap = hn::IfThenElse(is_decided, product, gap);
     is_apart = hn::Or(is_apart, is_clear);
-    is_open = hn::AndNot(is_clear, is_open);
+    is_within = hn::Or(is_within, is_near);
+    is_open = hn::AndNot(is_decided, is_open);
     const PlainSearch<kPlaces> search(corner, used, next, scalar::kRoundSliver);
     const PlainNearestLanes& nearer = search.nearest();
     const DoubleMask is_in = hn::And(is_open, nearer.is_around);

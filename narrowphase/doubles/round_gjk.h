@@ -50,7 +50,7 @@ class RoundGjk {
     unclear,
     nearest,  // `point` is the nearest one
     apart,    // surely separate: the gap exceeds the radii
-    within,   // surely overlapping: `point` is nearer than the radii
+    within,   // surely overlapping: the cores are apart, but `point` is nearer than the radii
     around,   // zero lies inside of four corners
   };
 
@@ -73,10 +73,6 @@ class RoundGjk {
     squared = dot(point, point);
     replace(0, first);
     for (int round = 0; round < kMostRoundRounds && squared > kTouchingSquared; ++round) {
-      if (squared < within * within) {
-        end = End::within;
-        return;
-      }
       const DifferencePoint next = find_difference_point(a, b, point, furthest);
       gap = dot(point, next.point);
       if (is_as_near(gap, squared) || simplex.holds(next.point)) {
@@ -85,6 +81,11 @@ class RoundGjk {
       }
       if (goal.decides_separate && gap > 0 && gap * gap > (clear * clear) * squared) {
         end = End::apart;
+        return;
+      }
+      if (squared < within * within && gap > 0 &&
+          gap * gap > (kClearRoundGap * kClearRoundGap) * squared) {
+        end = End::within;
         return;
       }
       const PlainNearest nearer(simplex, next.point, kRoundSliver);
@@ -125,7 +126,8 @@ class RoundGjk {
 };
 
 // The gap, if GJK settles it: the distance. Where the decision alone is wanted: less than the
-// distance of separate shapes, no less than that of cores within their radii, and less than a depth.
+// distance of separate shapes, no less than that of cores within their radii, and less than a
+// depth.
 inline bool find_plain_round_gap(const RoundGjk& gjk, const RoundGoal& goal, CoreGap& gap) {
   using End = RoundGjk::End;
   if (gjk.end == End::around && goal.decides_overlapping) {

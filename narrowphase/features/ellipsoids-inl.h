@@ -10,6 +10,7 @@
 #include <array>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/ellipsoids_scalar.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,6 +24,13 @@ struct EllipsoidContactLanes {
 
 HWY_INLINE F3 componentwise(const F3& a, const F3& b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+
+// As scalar::has_width().
+HWY_INLINE Mask has_width(const F3& semi_axes) {
+  const F least = min(min(semi_axes.x, semi_axes.y), semi_axes.z);
+  const F most = max(max(semi_axes.x, semi_axes.y), semi_axes.z);
+  return hn::Ge(least, hn::Mul(splat(scalar::kLeastWidth), most));
 }
 
 class EllipsoidPairLanes {

@@ -2,8 +2,8 @@
 //
 // Along a unit vector n it is n . t - |D n| - |M n|: D holds the semi-axes of A, the rows of M
 // those of B, and t leads from the middle of A to that of B. The separation is the greatest gap of
-// all directions. Newton's method on the sphere finds it from some directions: a few steps from each
-// of the best that lie apart, and more from the best of these. At a saddle both curvatures are
+// all directions. Newton's method on the sphere finds it from some directions: a few steps from
+// each of the best that lie apart, and more from the best of these. At a saddle both curvatures are
 // lowered first, so that the step leads upwards.
 //
 // Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
@@ -25,6 +25,16 @@ struct EllipsoidContact {
   Vector3<float> on_a;    // relative to the middle of A
   bool is_sure;
 };
+
+// Of ellipsoids that are nearly discs or segments the searches miss too many best directions.
+// Shapes with a smaller share of the shortest axis in the longest are not sure.
+inline constexpr float kLeastWidth = 0x1p-5f;
+
+inline bool has_width(const Vector3<float>& semi_axes) {
+  const float least = min(min(semi_axes.x(), semi_axes.y()), semi_axes.z());
+  const float most = max(max(semi_axes.x(), semi_axes.y()), semi_axes.z());
+  return least >= kLeastWidth * most;
+}
 
 // Two directions across n, which is a unit vector.
 struct TangentPlane {

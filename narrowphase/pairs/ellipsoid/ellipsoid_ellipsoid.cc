@@ -38,7 +38,9 @@ struct EllipsoidEllipsoid : RoundKernel {
     const F separation = hn::Sub(contact.separation, hn::Add(a.rounding, b.rounding));
     const F3 normal = rotate(turn_a, contact.normal), on_core = rotate(turn_a, contact.on_a);
     const F3 on_a = on_core + normal * a.rounding;
-    const Mask is_sure = hn::And(contact.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
+    const Mask has_widths = hn::And(has_width(a.semi_axes), has_width(b.semi_axes));
+    const Mask is_sure =
+        hn::And(hn::And(contact.is_sure, has_widths), hn::Gt(hn::Abs(separation), splat(kSureGap)));
     report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, normal, on_a,
            (on_a + normal * separation) - pose.d);
     if (HWY_LIKELY(!report.marks_unsure())) return;

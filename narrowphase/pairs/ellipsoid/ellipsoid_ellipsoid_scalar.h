@@ -23,7 +23,8 @@ inline Separation separation(const EllipsoidShape<float>& a, const EllipsoidShap
   result.normal = rotate(turn_a, contact.normal);
   result.arm_a = rotate(turn_a, contact.on_a) + result.normal * a.rounding;
   result.arm_b = (result.arm_a + result.normal * result.separation) - pose.d;
-  result.is_unsure = !(contact.is_sure && std::fabs(result.separation) > kSureGap);
+  const bool have_width = has_width(a.semi_axes) && has_width(b.semi_axes);
+  result.is_unsure = !(contact.is_sure && have_width && std::fabs(result.separation) > kSureGap);
   return result;
 }
 

@@ -157,8 +157,8 @@ TEST_P(RoundKernels, FindTheBestDirection) {
   EXPECT_LT(tally.overlapping, kPairs * 3 / 5);
   EXPECT_LE(tally.unsure, kPairs / 100);
   // Two rims, and two ellipsoids, may keep the second-best of several best directions: one or
-  // two in a million do, and of needles and plates one in 400,000 and in 20,000. None is among these
-  // pairs.
+  // two in a million do, and of needles and plates one in 400,000 and in 20,000. None is among
+  // these pairs.
   EXPECT_EQ(tally.wrong, 0u) << "by up to " << tally.worst;
 }
 
