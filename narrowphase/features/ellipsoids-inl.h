@@ -178,7 +178,7 @@ class EllipsoidPairLanes {
         hn::IfThenElse(hn::Gt(length, splat(kLongTurn)), hn::Div(splat(kLongTurn), length), unit);
     const F3 next = n + (across_one * hn::Mul(by_one, share) + across_two * hn::Mul(by_two, share));
     n = next * hn::Div(unit, hn::Sqrt(dot(next, next)));
-    return hn::Le(length, splat(kLastArc));
+    return hn::And(hn::Le(length, splat(kLastArc)), hn::Lt(greater, zero));
   }
 
   F3 a_;

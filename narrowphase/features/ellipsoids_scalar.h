@@ -159,7 +159,7 @@ class EllipsoidPair {
     std::array<float, kCount> gap_;
   };
 
-  // A step of Newton's method in the plane across n. Returns whether it was short.
+  // A step of Newton's method in the plane across n. Returns whether it was short, and at a peak.
   bool step(Vector3<float>& n) const {
     const Reach reach(*this, n);
     const TangentPlane plane(n);
@@ -189,7 +189,7 @@ class EllipsoidPair {
     const float share = length > kLongTurn ? kLongTurn / length : 1.0f;
     const Vector3<float> next = n + (plane.one * (by_one * share) + plane.two * (by_two * share));
     n = next * (1 / std::sqrt(dot(next, next)));
-    return length <= kLastArc;
+    return length <= kLastArc && greater < 0;
   }
 
   Vector3<float> a_;

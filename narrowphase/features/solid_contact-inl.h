@@ -9,6 +9,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/features/cylinders-inl.h"
+#include "narrowphase/features/solid_contact_scalar.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,6 +39,10 @@ struct SolidContactLanes {
   Mask is_sure;
 };
 
+HWY_INLINE Mask is_unit(const F3& n) {
+  return hn::Le(hn::Abs(hn::Sub(dot(n, n), splat(1))), splat(scalar::kUnitSquared));
+}
+
 template <class Report>
 HWY_INLINE void report_solid(const SolidContactLanes& contact, const Rotation& turn,
                              const F3& offset, F rounding, const F3& d, Report& report) {
@@ -45,7 +50,8 @@ HWY_INLINE void report_solid(const SolidContactLanes& contact, const Rotation& t
   const F3 normal = unit(rotate(turn, contact.normal));
   const F3 on_a = rotate(turn, contact.on_solid) + offset;
   const F3 on_b = (on_a + normal * separation) - d;
-  const Mask is_sure = hn::And(contact.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
+  const Mask is_sure = hn::And(hn::And(contact.is_sure, is_unit(contact.normal)),
+                               hn::Gt(hn::Abs(separation), splat(kSureGap)));
   report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, normal, on_a,
          on_b);
 }

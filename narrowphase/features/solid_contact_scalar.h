@@ -33,6 +33,11 @@ struct SolidContact {
   bool is_sure;
 };
 
+// The way from a corner that lies on the axis has no direction. What stands for it is too short,
+// and so is the gap along it.
+inline constexpr float kUnitSquared = 0x1p-12f;
+inline bool is_unit(const Vector3f& n) { return std::fabs(dot(n, n) - 1) <= kUnitSquared; }
+
 // `turn`: of the solid; `offset`: from A's position to the middle of its frame; `d`: from A to B.
 inline Separation separation_of(const SolidContact& contact, const Rotation<float>& turn,
                                 const Vector3f& offset, float rounding, const Vector3f& d) {
@@ -41,7 +46,7 @@ inline Separation separation_of(const SolidContact& contact, const Rotation<floa
   s.normal = unit(rotate(turn, contact.normal));
   s.arm_a = rotate(turn, contact.on_solid) + offset;
   s.arm_b = (s.arm_a + s.normal * s.separation) - d;
-  s.is_unsure = !(contact.is_sure && std::fabs(s.separation) > kSureGap);
+  s.is_unsure = !(contact.is_sure && is_unit(contact.normal) && std::fabs(s.separation) > kSureGap);
   return s;
 }
 

@@ -162,6 +162,37 @@ TEST_P(RoundKernels, FindTheBestDirection) {
   EXPECT_EQ(tally.wrong, 0u) << "by up to " << tally.worst;
 }
 
+scalar::SeparationAs<double> doubles_of(const Shape& a, const Shape& b, const Eigen::Vector3d& d) {
+  const scalar::Quaternion<double> upright{Eigen::Vector3d::Zero(), 1};
+  return scalar::separation_of<double>(a, b, {d, upright, upright, -d});
+}
+scalar::Separation floats_of(const Shape& a, const Shape& b, const Eigen::Vector3f& d) {
+  const scalar::Quaternion<float> upright{Eigen::Vector3f::Zero(), 1};
+  return scalar::separation_of<float>(a, b, {d, upright, upright, -d});
+}
+
+// A corner on the axis of a cylinder has no way out of it; its gap of zero had won.
+TEST(RoundKernelCases, CornersOnTheAxisAreNotSure) {
+  const Shape cylinder = Cylinder{1, 1, 0.125f}, box = carom::Box{{0.5f, 0.5f, 0.5f}};
+  for (const float z : {0.5f, 0.2f}) {
+    EXPECT_TRUE(floats_of(box, cylinder, {-0.5f, -0.5f, -z}).is_unsure) << z;
+  }
+  EXPECT_NEAR(doubles_of(box, cylinder, {-0.5, -0.5, -0.5}).separation, -1.125, 1e-6);
+  const Shape triangle =
+      Triangle{{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY()}};
+  EXPECT_TRUE(floats_of(cylinder, triangle, {0, 0, 0.3f}).is_unsure);
+}
+
+// A saddle in a plane of symmetry of both ellipsoids has no slope, but is no peak.
+TEST(RoundKernelCases, SaddlesOfUprightEllipsoidsAreNotSure) {
+  const Shape a = Ellipsoid{{0x1.42011p-2f, 0x1.90d688p-1f, 0x1.0d3accp+0f}};
+  const Shape b = Ellipsoid{{0x1.05a202p-1f, 0x1.f1aa6cp-1f, 0x1.149564p+0f}};
+  const scalar::Separation found = floats_of(a, b, {0, 0, 0x1.c8c036p+0f});
+  const double exact = doubles_of(a, b, {0, 0, 0x1.c8c036p+0}).separation;
+  EXPECT_TRUE(found.is_unsure || std::fabs(found.separation - exact) < 2e-6);
+  EXPECT_NEAR(exact, -0.347637769, 2e-6);
+}
+
 std::string kinds_name(const testing::TestParamInfo<Kinds>& info) {
   const auto [a, b, sizes] = info.param;
   return std::string(name(a)) + "_" + name(b) + (sizes == Sizes::alike ? "" : "_mixed");
