@@ -31,25 +31,19 @@ struct CoreGapLanes {
   DoubleMask is_found, is_proven, is_at_corners;
 };
 
-HWY_INLINE DoubleMask are_same(const D3& p, const D3& q) {
-  return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
-}
-
 // As scalar::PlainGjk.
 class PlainGjkLanes {
  public:
-  std::array<D3, 3> corner;
-  Places used = places(0b001);
   D3 point, last;
+  PlainSimplexLanes simplex;
   D squared, gap;
   DoubleMask is_nearest = no_lanes_of<D>(), is_around = no_lanes_of<D>();
 
-  HWY_INLINE PlainGjkLanes(const CorePairLanes& cores, const D3& between) {
+  HWY_INLINE PlainGjkLanes(const CorePairLanes& cores, const D3& between)
+      : point(cores.lowest(between)), last(point), simplex(point) {
     const DoubleTag tag;
-    point = last = cores.lowest(between);
     squared = dot(point, point);
     gap = hn::Zero(tag);
-    corner = {point, point, point};
     DoubleMask is_open = hn::Gt(squared, splat_double(kTouchingSquared));
     run_round<1>(cores.lowest(point), is_open);
     run_round<2>(cores.lowest(point), is_open);
@@ -63,26 +57,19 @@ class PlainGjkLanes {
   template <size_t kPlaces>
   HWY_INLINE void run_round(const D3& next, DoubleMask& is_open) {
     const D product = dot(point, next);
-    DoubleMask ends = hn::Ge(product, squared);
-    for (size_t i = 0; i < kPlaces; ++i) {
-      ends = hn::Or(ends, hn::And(has_place(used, i), are_same(corner[i], next)));
-    }
-    ends = hn::And(is_open, ends);
+    const DoubleMask ends =
+        hn::And(is_open, hn::Or(hn::Ge(product, squared), simplex.holds<kPlaces>(next)));
     gap = hn::IfThenElse(ends, product, gap);
     is_nearest = hn::Or(is_nearest, ends);
     is_open = hn::AndNot(ends, is_open);
-    const PlainSearch<kPlaces> search(corner, used, next);
+    const PlainSearch<kPlaces> search(simplex.corner, simplex.used, next);
     const PlainNearestLanes& nearer = search.nearest();
     const DoubleMask is_in = hn::And(is_open, nearer.is_around);
     last = select(is_in, next, last);
     is_around = hn::Or(is_around, is_in);
     is_open = hn::AndNot(hn::Or(nearer.is_around, nearer.is_unclear), is_open);
     is_open = hn::And(is_open, hn::Lt(nearer.squared, squared));
-    const Places taken = hn::AndNot(nearer.kept, hn::Add(nearer.kept, places(1)));
-    for (size_t i = 0; i < 3; ++i) {
-      corner[i] = select(hn::And(is_open, has_place(taken, i)), next, corner[i]);
-    }
-    used = select(is_open, hn::Or(nearer.kept, taken), used);
+    simplex.replace(is_open, nearer.kept, next);
     point = select(is_open, nearer.point, point);
     squared = hn::IfThenElse(is_open, nearer.squared, squared);
     is_open = hn::And(is_open, hn::Gt(squared, splat_double(kTouchingSquared)));
@@ -110,8 +97,9 @@ struct CoreFaceLanes {
 
 // As scalar::find_nearest_gap().
 HWY_INLINE void find_nearest_gap(const PlainGjkLanes& gjk, CoreGapLanes& out) {
-  const CoreFaceLanes face(gjk.corner[0], gjk.corner[1], gjk.corner[2]);
-  const DoubleMask has_three = hn::RebindMask(DoubleTag(), hn::Eq(gjk.used, places(0b111)));
+  const auto& [p, q, r] = gjk.simplex.corner;
+  const CoreFaceLanes face(p, q, r);
+  const DoubleMask has_three = hn::RebindMask(DoubleTag(), hn::Eq(gjk.simplex.used, places(0b111)));
   const DoubleMask has_face = hn::AndNot(face.is_sliver, has_three);
   const D distance = hn::Sqrt(gjk.squared), parted = hn::Div(gjk.gap, distance);
   out.size = distance;
@@ -207,7 +195,8 @@ HWY_INLINE void find_plain_gap(const CorePairLanes& cores, const D3& between, bo
   const PlainGjkLanes gjk(cores, between);
   find_nearest_gap(gjk, out);
   if (hn::AllFalse(DoubleTag(), gjk.is_around)) return;
-  PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
+  const auto& [p, q, r] = gjk.simplex.corner;
+  PortalLanes portal({p, q, r, gjk.last});
   DoubleMask is_open = gjk.is_around;
   if (decides_only) {
     const D squared = portal.squared_height();

@@ -27,6 +27,37 @@ HWY_INLINE Places select(DoubleMask mask, Places yes, Places no) {
   return hn::IfThenElse(hn::RebindMask(PlaceTag(), mask), yes, no);
 }
 
+HWY_INLINE DoubleMask are_same(const D3& p, const D3& q) {
+  return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
+}
+
+// Up to three points in each lane, in any places.
+struct PlainSimplexLanes {
+  std::array<D3, 3> corner;
+  Places used;
+
+  explicit HWY_INLINE PlainSimplexLanes(const D3& first)
+      : corner{first, first, first}, used(places(0b001)) {}
+
+  // Whether it is one of those in the first `kPlaces` places.
+  template <size_t kPlaces>
+  HWY_INLINE DoubleMask holds(const D3& point) const {
+    DoubleMask holds = no_lanes_of<D>();
+    for (size_t i = 0; i < kPlaces; ++i) {
+      holds = hn::Or(holds, hn::And(has_place(used, i), are_same(corner[i], point)));
+    }
+    return holds;
+  }
+  // As scalar::PlainSimplex::replace(), in these lanes.
+  HWY_INLINE void replace(DoubleMask lanes, Places kept, const D3& next) {
+    const Places taken = hn::AndNot(kept, hn::Add(kept, places(1)));
+    for (size_t i = 0; i < 3; ++i) {
+      corner[i] = select(hn::And(lanes, has_place(taken, i)), next, corner[i]);
+    }
+    used = select(lanes, hn::Or(kept, taken), used);
+  }
+};
+
 // The point nearest to zero among all faces, sides and the corner itself that hold the last corner.
 struct PlainNearestLanes {
   D3 point;

@@ -31,6 +31,20 @@ class RingSearch {
     }
   }
 
+  // Along the axes of a round core: where both cores share one, a cap may be as near as the ring,
+  // and no arc leads to it.
+  void try_axes_of(const Core& core) {
+    if (!core.is_round()) return;
+    const auto& [x, y, z] = core.roundness().axis;
+    for (const CoreVector& across : {cross(x, y), cross(y, z), cross(z, x)}) {
+      const double length = std::sqrt(dot(across, across));
+      if (!(length > 0)) continue;  // one of them is flat
+      const CoreVector n = across * (1 / length);
+      keep_if_wider(n);
+      keep_if_wider(-n);
+    }
+  }
+
  private:
   double gap_along(const CoreVector& n) const {
     return dot(n, difference_point(a_, b_, n, furthest_));
@@ -64,12 +78,15 @@ class RingSearch {
       }
     }
     const CoreVector found = way((low + high) / 2);
-    const double gap = gap_along(found);
-    if (gap > best_.gap) {
-      best_.gap = gap;
-      best_.normal = found;
-    }
+    keep_if_wider(found);
     return found;
+  }
+
+  void keep_if_wider(const CoreVector& n) {
+    const double gap = gap_along(n);
+    if (!(gap > best_.gap)) return;
+    best_.gap = gap;
+    best_.normal = n;
   }
 
   const Core& a_;
@@ -78,7 +95,7 @@ class RingSearch {
   WayOut& best_;
 };
 
-// What the careful search for the depth starts from: the corners around zero, or where a careful
+// The careful search for the depth starts from the corners around zero, or from where a careful
 // search for the distance ends.
 inline NearestWay start_of_round_depth(const Core& a, const Core& b, const RoundGjk& gjk,
                                        FurthestPoint furthest) {
@@ -103,7 +120,7 @@ inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthe
   if (distance > kTouchingRound && distance - parted <= slack) {
     return {.size = distance,
             .normal = nearest.way * (1 / distance),
-            .is_proven = true,
+            .is_proven = distance <= gjk.radius || parted > gjk.radius + kProvenGap,
             .has_point = true,
             .of_a = spanned_of_a(nearest.corners, nearest.way, nearest.of_a)};
   }
@@ -112,6 +129,8 @@ inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthe
   if (!out.has_ended) {
     RingSearch ring(a, b, furthest, out);
     search.for_each_open_way([&](const CoreVector& normal) { ring.climb_from(normal); });
+    ring.try_axes_of(a);
+    ring.try_axes_of(b);
     out.has_ended = true;
   }
   // For a difference without volume, the penetration search tries only one direction.

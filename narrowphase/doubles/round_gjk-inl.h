@@ -69,29 +69,64 @@ HWY_INLINE DoubleMask is_as_near(D gap, D squared) {
 // As scalar::RoundGjk.
 class RoundGjkLanes {
  public:
-  std::array<D3, 3> corner, of_a;
-  Places used = places(0b001);
+  PlainSimplexLanes simplex, of_a;
   D3 point, last;
   D squared, gap;
   DoubleMask is_nearest = no_lanes_of<D>(), is_apart = no_lanes_of<D>(),
              is_within = no_lanes_of<D>(), is_around = no_lanes_of<D>();
 
   HWY_INLINE RoundGjkLanes(const RoundPairLanes& cores, const D3& between,
-                           const scalar::RoundGoal& goal) {
+                           const scalar::RoundGoal& goal)
+      : RoundGjkLanes(cores, lowest(cores, between + off_plane()), goal) {}
+
+  // As scalar::RoundGjk::point_of_a().
+  HWY_INLINE D3 point_of_a() const {
+    const DoubleMask has_p = has_place(simplex.used, 0), has_q = has_place(simplex.used, 1),
+                     has_r = has_place(simplex.used, 2);
+    const auto first_of = [&](const std::array<D3, 3>& v)
+                              HWY_ATTR { return select(has_p, v[0], select(has_q, v[1], v[2])); };
+    const auto second_of = [&](const std::array<D3, 3>& v)
+                               HWY_ATTR { return select(hn::And(has_p, has_q), v[1], v[2]); };
+    const D3 p = first_of(simplex.corner), on_a = first_of(of_a.corner);
+    const D3 u = second_of(simplex.corner) - p, way = point - p,
+             along = second_of(of_a.corner) - on_a;
+    const D3 beside = on_a + along * hn::Div(dot(way, u), dot(u, u));
+    const D3 v = simplex.corner[2] - p, n = cross(u, v);
+    const D each = hn::Div(splat_double(1), dot(n, n));
+    const D of_u = hn::Mul(dot(n, cross(way, v)), each);
+    const D of_v = hn::Mul(dot(n, cross(u, way)), each);
+    const D3 over = (on_a + along * of_u) + (of_a.corner[2] - on_a) * of_v;
+    const DoubleMask has_two = hn::Or(hn::And(has_p, has_q), hn::And(hn::Or(has_p, has_q), has_r));
+    const DoubleMask has_three = hn::And(hn::And(has_p, has_q), has_r);
+    return select(has_three, over, select(has_two, beside, on_a));
+  }
+
+ private:
+  struct Corner {
+    D3 point, of_a;
+  };
+
+  static HWY_INLINE D3 off_plane() {
+    constexpr CoreVector kOff = scalar::kOffPlane;
+    return {splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
+  }
+  // The corner of B - A that is lowest along `way`.
+  static HWY_INLINE Corner lowest(const RoundPairLanes& cores, const D3& way) {
+    const D3 of_a = cores.a.furthest(way);
+    return {cores.b.furthest(-way) - of_a, of_a};
+  }
+
+  HWY_INLINE RoundGjkLanes(const RoundPairLanes& cores, const Corner& first,
+                           const scalar::RoundGoal& goal)
+      : simplex(first.point), of_a(first.of_a), point(first.point), last(first.point) {
     const DoubleTag tag;
     const D least = splat_double(scalar::kClearRoundGap), zero = hn::Zero(tag);
     const D clear = hn::Add(cores.radius, least);
     const D within = max(hn::Sub(cores.radius, least), zero);
     clear_squared_ = goal.decides_separate ? hn::Mul(clear, clear) : splat_double(HUGE_VAL);
     within_squared_ = goal.decides_overlapping ? hn::Mul(within, within) : zero;
-    constexpr CoreVector kOff = scalar::kOffPlane;
-    const D3 start = between + D3{splat_double(kOff.x), splat_double(kOff.y), splat_double(kOff.z)};
-    const D3 first_of_a = cores.a.furthest(start);
-    point = last = cores.b.furthest(-start) - first_of_a;
     squared = dot(point, point);
     gap = hn::Zero(tag);
-    corner = {point, point, point};
-    of_a = {first_of_a, first_of_a, first_of_a};
     DoubleMask is_open = hn::Gt(squared, splat_double(kTouchingSquared));
     run_round<1>(cores, is_open);
     run_round<2>(cores, is_open);
@@ -100,39 +135,13 @@ class RoundGjkLanes {
     }
   }
 
-  // As scalar::RoundGjk::point_of_a().
-  HWY_INLINE D3 point_of_a() const {
-    const DoubleMask has_p = has_place(used, 0), has_q = has_place(used, 1),
-                     has_r = has_place(used, 2);
-    const auto first_of = [&](const std::array<D3, 3>& v)
-                              HWY_ATTR { return select(has_p, v[0], select(has_q, v[1], v[2])); };
-    const auto second_of = [&](const std::array<D3, 3>& v)
-                               HWY_ATTR { return select(hn::And(has_p, has_q), v[1], v[2]); };
-    const D3 p = first_of(corner), on_a = first_of(of_a);
-    const D3 u = second_of(corner) - p, way = point - p, along = second_of(of_a) - on_a;
-    const D3 beside = on_a + along * hn::Div(dot(way, u), dot(u, u));
-    const D3 v = corner[2] - p, n = cross(u, v);
-    const D each = hn::Div(splat_double(1), dot(n, n));
-    const D of_u = hn::Mul(dot(n, cross(way, v)), each);
-    const D of_v = hn::Mul(dot(n, cross(u, way)), each);
-    const D3 over = (on_a + along * of_u) + (of_a[2] - on_a) * of_v;
-    const DoubleMask has_two = hn::Or(hn::And(has_p, has_q), hn::And(hn::Or(has_p, has_q), has_r));
-    const DoubleMask has_three = hn::And(hn::And(has_p, has_q), has_r);
-    return select(has_three, over, select(has_two, beside, on_a));
-  }
-
- private:
   // The simplex has no more than `kPlaces` corners.
   template <size_t kPlaces>
   HWY_INLINE void run_round(const RoundPairLanes& cores, DoubleMask& is_open) {
-    const D3 next_of_a = cores.a.furthest(point);
-    const D3 next = cores.b.furthest(-point) - next_of_a;
+    const auto [next, next_of_a] = lowest(cores, point);
     const D product = dot(point, next);
-    DoubleMask ends = is_as_near(product, squared);
-    for (size_t i = 0; i < kPlaces; ++i) {
-      ends = hn::Or(ends, hn::And(has_place(used, i), are_same(corner[i], next)));
-    }
-    ends = hn::And(is_open, ends);
+    const DoubleMask ends =
+        hn::And(is_open, hn::Or(is_as_near(product, squared), simplex.holds<kPlaces>(next)));
     gap = hn::IfThenElse(ends, product, gap);
     is_nearest = hn::Or(is_nearest, ends);
     is_open = hn::AndNot(ends, is_open);
@@ -150,20 +159,15 @@ class RoundGjkLanes {
     is_apart = hn::Or(is_apart, is_clear);
     is_within = hn::Or(is_within, is_near);
     is_open = hn::AndNot(is_decided, is_open);
-    const PlainSearch<kPlaces> search(corner, used, next, scalar::kRoundSliver);
+    const PlainSearch<kPlaces> search(simplex.corner, simplex.used, next, scalar::kRoundSliver);
     const PlainNearestLanes& nearer = search.nearest();
     const DoubleMask is_in = hn::And(is_open, nearer.is_around);
     last = select(is_in, next, last);
     is_around = hn::Or(is_around, is_in);
     is_open = hn::AndNot(hn::Or(nearer.is_around, nearer.is_unclear), is_open);
     is_open = hn::And(is_open, hn::Lt(nearer.squared, squared));
-    const Places taken = hn::AndNot(nearer.kept, hn::Add(nearer.kept, places(1)));
-    for (size_t i = 0; i < 3; ++i) {
-      const DoubleMask is_taken = hn::And(is_open, has_place(taken, i));
-      corner[i] = select(is_taken, next, corner[i]);
-      of_a[i] = select(is_taken, next_of_a, of_a[i]);
-    }
-    used = select(is_open, hn::Or(nearer.kept, taken), used);
+    simplex.replace(is_open, nearer.kept, next);
+    of_a.replace(is_open, nearer.kept, next_of_a);
     point = select(is_open, nearer.point, point);
     squared = hn::IfThenElse(is_open, nearer.squared, squared);
     is_open = hn::And(is_open, hn::Gt(squared, splat_double(kTouchingSquared)));
@@ -188,7 +192,8 @@ HWY_INLINE RoundGapLanes find_plain_round_gap(const RoundPairLanes& cores, const
                     hn::Or(hn::Le(distance, cores.radius),
                            hn::Gt(parted, hn::Add(cores.radius, splat_double(kProvenGap))))};
   if (goal.decides_overlapping && !hn::AllFalse(DoubleTag(), gjk.is_around)) {
-    const PortalLanes portal({gjk.corner[0], gjk.corner[1], gjk.corner[2], gjk.last});
+    const auto& [p, q, r] = gjk.simplex.corner;
+    const PortalLanes portal({p, q, r, gjk.last});
     const D height = portal.squared_height();
     const DoubleMask is_deep =
         hn::And(gjk.is_around, hn::Gt(height, splat_double(kProvenGap * kProvenGap)));

@@ -38,7 +38,7 @@ inline bool is_as_near(double gap, double squared) {
           less * less <= (kSameRoundGap * kSameRoundGap) * squared);
 }
 
-// Of which shapes the caller wants the decision alone.
+// Says whether the caller wants the decision alone of separate shapes, and of overlapping ones.
 struct RoundGoal {
   bool decides_separate = false;
   bool decides_overlapping = false;

@@ -11,6 +11,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/features/edge_arc-inl.h"
+#include "narrowphase/features/start_directions-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -177,7 +178,7 @@ class CylinderPairLanes {
             hn::Sub(t_.y, hn::Mul(b, sine_)), t_.z};
   }
 
-  class Starts {
+  class Starts : public StartDirections<18> {
    public:
     HWY_INLINE explicit Starts(const CylinderPairLanes& pair) {
       for (const float sign_a : {1.0f, -1.0f}) {
@@ -187,28 +188,9 @@ class CylinderPairLanes {
       add_cap_of_b(pair);
     }
 
-    HWY_INLINE F3 take_best() {
-      F3 best = n_[0];
-      F most = gap_[0];
-      for (size_t i = 1; i < kCount; ++i) {
-        const Mask wider = hn::Gt(gap_[i], most);
-        most = hn::IfThenElse(wider, gap_[i], most);
-        best = select(wider, n_[i], best);
-      }
-      for (size_t i = 0; i < kCount; ++i) {
-        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kRimApart));
-        gap_[i] = hn::IfThenElse(is_near, splat(-FLT_MAX), gap_[i]);
-      }
-      return best;
-    }
-
    private:
     HWY_INLINE void add(const F3& way, Mask may, const CylinderPairLanes& pair) {
-      const F squared = dot(way, way), least = splat(kLeastWay);
-      n_[count_] = way * unit_factor(max(squared, least));
-      gap_[count_] = hn::IfThenElse(hn::And(may, hn::Gt(squared, least)), pair.gap(n_[count_]),
-                                    splat(-FLT_MAX));
-      ++count_;
+      StartDirections::add(way, splat(1), may, [&](const F3& n) HWY_ATTR { return pair.gap(n); });
     }
 
     HWY_INLINE void add_between(F sign_a, F sign_b, const CylinderPairLanes& pair) {
@@ -254,11 +236,6 @@ class CylinderPairLanes {
            hn::Add(hn::Mul(sine, along), hn::Mul(cosine, beside)), hn::Mul(w.z, share)},
           hn::Gt(min(above, share), splat(0)), pair);
     }
-
-    static constexpr size_t kCount = 18;
-    std::array<F3, kCount> n_;
-    std::array<F, kCount> gap_;
-    size_t count_ = 0;
   };
 
   HWY_INLINE void try_rims(Found& best) const {
@@ -267,7 +244,7 @@ class CylinderPairLanes {
     F3 n_of_best = {splat(0), splat(0), splat(1)}, q_of_best = splat3(0);
     std::array<F3, kRimStarts> n, q;
     for (size_t i = 0; i < kRimStarts; ++i) {
-      n[i] = starts.take_best();
+      n[i] = starts.take_best(kRimApart);
       q[i] = between_caps(sign_of(n[i].x), sign_of(along_b(n[i])));
     }
     // All together: one step waits for its own roots and quotients.

@@ -25,6 +25,7 @@
 #include <array>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/start_directions_scalar.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {
@@ -169,8 +170,7 @@ class CylinderPair {
     return {(t_.x() - sign_a * half_a_) - b * cosine_, t_.y() - b * sine_, t_.z()};
   }
 
-  // The directions to start from, and their gaps.
-  class Starts {
+  class Starts : public StartDirections<18> {
    public:
     explicit Starts(const CylinderPair& pair) : pair_(pair) {
       for (const float sign_a : {1.0f, -1.0f}) {
@@ -180,28 +180,9 @@ class CylinderPair {
       add_cap_of_b();
     }
 
-    // The best that is left; what is near it is left out afterwards.
-    Vector3<float> take_best() {
-      Vector3<float> best = n_[0];
-      float most = gap_[0];
-      for (size_t i = 1; i < kCount; ++i) {
-        if (!(gap_[i] > most)) continue;
-        most = gap_[i];
-        best = n_[i];
-      }
-      for (size_t i = 0; i < kCount; ++i) {
-        if (dot(n_[i], best) > kRimApart) gap_[i] = -kLargest;
-      }
-      return best;
-    }
-
    private:
-    // Never the best if the way vanishes, or without `may`.
     void add(const Vector3<float>& way, bool may = true) {
-      const float squared = dot(way, way);
-      n_[count_] = way * (1 / std::sqrt(max(squared, kLeastWay)));
-      gap_[count_] = may && squared > kLeastWay ? pair_.gap(n_[count_]) : -kLargest;
-      ++count_;
+      StartDirections::add(way, 1, may, [this](const Vector3<float>& n) { return pair_.gap(n); });
     }
 
     // Sums of the vector between two caps and the axes.
@@ -246,20 +227,16 @@ class CylinderPair {
           min(above, share) > 0);
     }
 
-    static constexpr size_t kCount = 18;
     const CylinderPair& pair_;
-    std::array<Vector3<float>, kCount> n_;
-    std::array<float, kCount> gap_;
-    size_t count_ = 0;
   };
 
-  // Of some starts, each a few steps; the best one goes on.
+  // Takes a few steps from each of some starts; the best one goes on.
   void try_rims(Found& best) const {
     Starts starts(*this);
     Vector3<float> of_best(0, 0, 0);  // the q of the best
     Found rims;
     for (size_t i = 0; i < kRimStarts; ++i) {
-      Vector3<float> n = starts.take_best();
+      Vector3<float> n = starts.take_best(kRimApart);
       const float along_b = cosine_ * n.x() + sine_ * n.y();
       const Vector3<float> q =
           between_caps(std::copysign(1.0f, n.x()), std::copysign(1.0f, along_b));

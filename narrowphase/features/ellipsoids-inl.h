@@ -11,6 +11,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/features/ellipsoids_scalar.h"
+#include "narrowphase/features/start_directions-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -42,7 +43,7 @@ class EllipsoidPairLanes {
   HWY_INLINE EllipsoidContactLanes find() const {
     Starts starts(*this);
     std::array<F3, kEllipsoidStarts> n;
-    for (F3& start : n) start = starts.take_best();
+    for (F3& start : n) start = starts.take_best(kEllipsoidsApart);
     // All together: one step waits for its own roots and quotients.
     for (size_t k = 0; k < kEllipsoidFirstSteps; ++k) {
       for (F3& way : n) step(way);
@@ -88,7 +89,7 @@ class EllipsoidPairLanes {
     }
   };
 
-  class Starts {
+  class Starts : public StartDirections<16> {
    public:
     HWY_INLINE explicit Starts(const EllipsoidPairLanes& pair) {
       add(pair.t_, pair);
@@ -104,35 +105,11 @@ class EllipsoidPairLanes {
       }
     }
 
-    HWY_INLINE F3 take_best() {
-      F3 best = n_[0];
-      F most = gap_[0];
-      for (size_t i = 1; i < kCount; ++i) {
-        const Mask wider = hn::Gt(gap_[i], most);
-        most = hn::IfThenElse(wider, gap_[i], most);
-        best = select(wider, n_[i], best);
-      }
-      for (size_t i = 0; i < kCount; ++i) {
-        const Mask is_near = hn::Gt(dot(n_[i], best), splat(kEllipsoidsApart));
-        gap_[i] = hn::IfThenElse(is_near, splat(-FLT_MAX), gap_[i]);
-      }
-      return best;
-    }
-
    private:
-    HWY_INLINE void add(const F3& direction, const EllipsoidPairLanes& pair) {
-      const F squared = dot(direction, direction), height = dot(direction, pair.t_);
-      const F length = hn::Sqrt(max(squared, splat(kLeastWay)));
-      n_[count_] = direction * hn::CopySign(hn::Div(splat(1), length), height);
-      gap_[count_] =
-          hn::IfThenElse(hn::Gt(squared, splat(kLeastWay)), pair.gap(n_[count_]), splat(-FLT_MAX));
-      ++count_;
+    HWY_INLINE void add(const F3& way, const EllipsoidPairLanes& pair) {
+      StartDirections::add(way, dot(way, pair.t_), hn::Not(no_lanes()),
+                           [&](const F3& n) HWY_ATTR { return pair.gap(n); });
     }
-
-    static constexpr size_t kCount = 16;
-    std::array<F3, kCount> n_;
-    std::array<F, kCount> gap_;
-    size_t count_ = 0;
   };
 
   HWY_INLINE Mask step(F3& n) const {

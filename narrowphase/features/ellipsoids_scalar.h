@@ -15,6 +15,7 @@
 #include <array>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/start_directions_scalar.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {
@@ -26,8 +27,8 @@ struct EllipsoidContact {
   bool is_sure;
 };
 
-// Of ellipsoids that are nearly discs or segments the searches miss too many best directions.
-// Shapes with a smaller share of the shortest axis in the longest are not sure.
+// The searches miss too many best directions of ellipsoids that are nearly discs or segments: where
+// the shortest axis is a smaller share of the longest, nothing is sure.
 inline constexpr float kLeastWidth = 0x1p-5f;
 
 inline bool has_width(const Vector3<float>& semi_axes) {
@@ -61,7 +62,7 @@ class EllipsoidPair {
     Vector3<float> best(0, 0, 1);
     float most = -kLargest;
     for (size_t i = 0; i < kEllipsoidStarts; ++i) {
-      Vector3<float> n = starts.take_best();
+      Vector3<float> n = starts.take_best(kEllipsoidsApart);
       for (size_t k = 0; k < kEllipsoidFirstSteps; ++k) step(n);
       const float wide = gap(n);
       if (!(wide > most)) continue;
@@ -107,56 +108,30 @@ class EllipsoidPair {
     }
   };
 
-  // The directions to start from, and their gaps: between the middles, along the axes of both, and
-  // across one axis of each.
-  class Starts {
+  // Between the middles, along the axes of both, and across one axis of each.
+  class Starts : public StartDirections<16> {
    public:
-    explicit Starts(const EllipsoidPair& pair) {
-      const Vector3<float>&p = pair.b_[0], &q = pair.b_[1], &r = pair.b_[2];
-      const Vector3<float> directions[kCount] = {pair.t_,
-                                                 p,
-                                                 q,
-                                                 r,
-                                                 {1, 0, 0},
-                                                 {0, 1, 0},
-                                                 {0, 0, 1},
-                                                 {0, -p.z(), p.y()},
-                                                 {p.z(), 0, -p.x()},
-                                                 {-p.y(), p.x(), 0},
-                                                 {0, -q.z(), q.y()},
-                                                 {q.z(), 0, -q.x()},
-                                                 {-q.y(), q.x(), 0},
-                                                 {0, -r.z(), r.y()},
-                                                 {r.z(), 0, -r.x()},
-                                                 {-r.y(), r.x(), 0}};
-      for (size_t i = 0; i < kCount; ++i) {
-        const float squared = dot(directions[i], directions[i]);
-        const float height = dot(directions[i], pair.t_);
-        const float to_unit = std::copysign(1 / std::sqrt(max(squared, kLeastWay)), height);
-        n_[i] = directions[i] * to_unit;
-        gap_[i] = squared > kLeastWay ? pair.gap(n_[i]) : -kLargest;
+    explicit Starts(const EllipsoidPair& pair) : pair_(pair) {
+      add(pair.t_);
+      for (const Vector3<float>& row : pair.b_) add(row);
+      add({1, 0, 0});
+      add({0, 1, 0});
+      add({0, 0, 1});
+      for (const Vector3<float>& row : pair.b_) {
+        add({0, -row.z(), row.y()});
+        add({row.z(), 0, -row.x()});
+        add({-row.y(), row.x(), 0});
       }
-    }
-
-    // The best that is left; what is near it is left out afterwards.
-    Vector3<float> take_best() {
-      Vector3<float> best = n_[0];
-      float most = gap_[0];
-      for (size_t i = 1; i < kCount; ++i) {
-        if (!(gap_[i] > most)) continue;
-        most = gap_[i];
-        best = n_[i];
-      }
-      for (size_t i = 0; i < kCount; ++i) {
-        if (dot(n_[i], best) > kEllipsoidsApart) gap_[i] = -kLargest;
-      }
-      return best;
     }
 
    private:
-    static constexpr size_t kCount = 16;
-    std::array<Vector3<float>, kCount> n_;
-    std::array<float, kCount> gap_;
+    // Towards B, or away from A.
+    void add(const Vector3<float>& way) {
+      StartDirections::add(way, dot(way, pair_.t_), true,
+                           [this](const Vector3<float>& n) { return pair_.gap(n); });
+    }
+
+    const EllipsoidPair& pair_;
   };
 
   // A step of Newton's method in the plane across n. Returns whether it was short, and at a peak.

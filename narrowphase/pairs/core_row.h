@@ -29,7 +29,7 @@ struct StatedCore {
   double size;  // within a factor of two of all coordinates
   double radius = 0;
   bool is_round = false;
-  // Of round ones: half axes of the ellipsoid about a point, and the share of each point.
+  // An ellipsoid with these half axes lies about each point of a round one, times its share.
   Eigen::Vector3d half_axes = Eigen::Vector3d::Zero();
   std::array<double, 2> share{};
 };

@@ -1,4 +1,4 @@
-// What the kernels of round shapes have in common that search for a direction.
+// The kernels of round shapes that search for a direction share this.
 #if defined(CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
 #undef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_

@@ -183,6 +183,26 @@ TEST(RoundKernelCases, CornersOnTheAxisAreNotSure) {
   EXPECT_TRUE(floats_of(cylinder, triangle, {0, 0, 0.3f}).is_unsure);
 }
 
+// Of coaxial shapes a cap may be as near as the whole ring of sides. No arc leads from the one to
+// the other.
+TEST(RoundKernelCases, CapsOfCoaxialShapesAreFound) {
+  const Shape wide = Cylinder{0x1.291832p+0f, 0x1.62f928p+0f};
+  const Shape segment = Capsule{{0, 0, -0x1.6a8b5ep-2f}, {0, 0, 0x1.6a8b5ep-2f}, 0};
+  const auto depth = [](const Shape& a, const Shape& b, double z) {
+    return doubles_of(a, b, {0, 0, z}).separation;
+  };
+  EXPECT_NEAR(depth(segment, wide, -0x1.296a48p-1), -1.1597726, 2e-6);
+  const Shape a = Cylinder{0x1.099758p-1f, 0x1.42ee86p+0f};
+  const Shape b = Cylinder{0x1.cfc25ap-2f, 0x1.5b7958p-1f};
+  EXPECT_NEAR(depth(a, b, 0x1.f0313ep-1), -0.970986545, 2e-6);
+  const Shape cone = Cone{0x1.9798bap-1f, 0x1.a1297ep-1f};
+  const Shape under = Cylinder{0x1.5c5e9ap-1f, 0x1.ff7f16p-1f};
+  EXPECT_NEAR(depth(under, cone, -0x1.7309dp-1), -1.08910191, 2e-6);
+  const Shape slim = Cone{0x1.598de6p-2f, 0x1.555b1p+0f};
+  const Shape flat = Cone{0x1.4340bp+0f, 0x1.5f6bd4p-1f};
+  EXPECT_NEAR(depth(slim, flat, 0x1.2cea02p-1), -1.43206745, 2e-6);
+}
+
 // A saddle in a plane of symmetry of both ellipsoids has no slope, but is no peak.
 TEST(RoundKernelCases, SaddlesOfUprightEllipsoidsAreNotSure) {
   const Shape a = Ellipsoid{{0x1.42011p-2f, 0x1.90d688p-1f, 0x1.0d3accp+0f}};
