@@ -66,7 +66,8 @@ class RowTester {
         test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
         decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
                           has_distance_pass(kind_a, kind_b)) {
-    waiting_.count = 0;
+    waiting_.rows.decides_only = test_.decides_only;
+    waiting_.rows.decides_separate = test_.decides_only;
   }
 
   // Tests rows whose cores surely overlap, whose bodies are valid. Rows may wait until finish().
@@ -104,23 +105,13 @@ class RowTester {
   // Tests a row in double precision. Both bodies are valid. The row may wait until finish().
   void run(size_t row) {
     if (!gather(row)) return put_separation(row);
-    if (waiting_.count == CoreRows::kMost) finish();
+    if (waiting_.are_full()) finish();
   }
 
   void finish() {
-    if (waiting_.count == 0) return;
-    waiting_.decides_only = test_.decides_only;
-    find_gaps_(waiting_);
-    for (size_t place = 0; place < waiting_.count; ++place) {
-      if (waiting_.is_found[place]) {
-        std::array<float, CoreRows::kAnswers> numbers;
-        for (size_t c = 0; c < numbers.size(); ++c) numbers[c] = waiting_.answer[c][place];
-        put(row_of_[place], Status::ok, numbers, waiting_.is_unsure[place]);
-      } else {
-        put_separation(row_of_[place]);
-      }
-    }
-    waiting_.count = 0;
+    waiting_.test([this](size_t row, const std::array<float, CoreRows::kAnswers>& numbers,
+                         bool is_unsure) { put(row, Status::ok, numbers, is_unsure); },
+                  [this](size_t row) { put_separation(row); });
   }
 
  private:
@@ -217,9 +208,9 @@ class RowTester {
   bool gather(size_t row) {
     if constexpr (std::is_same_v<B, Hull>) {
       const Pair pair = batch_.pairs[row];
-      row_of_[waiting_.count] = static_cast<uint16_t>(row);
+      waiting_.name_next(row);
       return add_core_row(shape_at<A, double>(a_, pair.a), shape_at<B, double>(b_, pair.b),
-                          pose(pair), waiting_);
+                          pose(pair), waiting_.rows);
     } else {
       return false;
     }
@@ -257,9 +248,7 @@ class RowTester {
   // The test pass of a kind that has a distance pass only states that a pair is separate. The
   // distance pass finds how far, and the status.
   const bool decides_separate_;
-  const FindCoreGaps find_gaps_ = find_core_gaps();
-  CoreRowsWithPoints& waiting_ = core_rows_of_thread();
-  std::array<uint16_t, CoreRows::kMost> row_of_;
+  WaitingRows waiting_;
 };
 
 template <class A, class B>

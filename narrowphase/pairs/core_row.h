@@ -21,6 +21,40 @@ inline CoreRowsWithPoints& core_rows_of_thread() {
   return *rows;
 }
 
+// Rows of a batch that wait for lanes of doubles.
+class WaitingRows {
+ public:
+  CoreRowsWithPoints& rows = core_rows_of_thread();
+
+  WaitingRows() { rows.count = 0; }
+
+  // Before it is added: the next one of `rows` is this row of the batch.
+  void name_next(size_t row) { row_of_[rows.count] = static_cast<uint16_t>(row); }
+  bool are_full() const { return rows.count == CoreRows::kMost; }
+
+  // Tests all. Calls found(row, answer, is_unsure) for those that lanes find, and left(row) for the
+  // others.
+  template <class Found, class Left>
+  void test(const Found& found, const Left& left) {
+    if (rows.count == 0) return;
+    find_gaps_(rows);
+    for (size_t place = 0; place < rows.count; ++place) {
+      if (!rows.is_found[place]) {
+        left(row_of_[place]);
+        continue;
+      }
+      std::array<float, CoreRows::kAnswers> answer;
+      for (size_t c = 0; c < answer.size(); ++c) answer[c] = rows.answer[c][place];
+      found(row_of_[place], answer, rows.is_unsure[place]);
+    }
+    rows.count = 0;
+  }
+
+ private:
+  const FindCoreGaps find_gaps_ = find_core_gaps();
+  std::array<uint16_t, CoreRows::kMost> row_of_;
+};
+
 // A core before it is turned, in metres: its points, and what lies about them.
 struct StatedCore {
   const float* points;

@@ -44,10 +44,9 @@ class RoundRows {
         view_a_(view_of(batch.a, batch.layout, kind_a)),
         view_b_(view_of(batch.b, batch.layout, kind_b)),
         store_(batch, kind_a, kind_b) {
-    waiting_.count = 0;
-    waiting_.decides_only = !has_contacts(batch.detail);
-    waiting_.decides_separate =
-        waiting_.decides_only || (batch.pass == Pass::test && !batch.measures);
+    CoreRows& rows = waiting_.rows;
+    rows.decides_only = !has_contacts(batch.detail);
+    rows.decides_separate = rows.decides_only || (batch.pass == Pass::test && !batch.measures);
   }
 
   void run(size_t row) {
@@ -59,26 +58,18 @@ class RoundRows {
       store_.put(row, Status::invalid, nothing);
     } else if (!add(row, pair)) {
       put_exact(row);
-    } else if (waiting_.count == CoreRows::kMost) {
+    } else if (waiting_.are_full()) {
       finish();
     }
   }
 
   void finish() {
-    if (waiting_.count == 0) return;
-    find_gaps_(waiting_);
-    for (size_t place = 0; place < waiting_.count; ++place) {
-      const size_t row = row_of_[place];
-      if (!waiting_.is_found[place]) {
-        put_exact(row);
-        continue;
-      }
-      std::array<float, CoreRows::kAnswers> answer;
-      for (size_t c = 0; c < answer.size(); ++c) answer[c] = waiting_.answer[c][place];
-      store_.put(row, Status::ok, answer);
-      if (batch_.unsure && waiting_.is_unsure[place]) batch_.unsure[row] = 1;
-    }
-    waiting_.count = 0;
+    waiting_.test(
+        [this](size_t row, const std::array<float, CoreRows::kAnswers>& answer, bool is_unsure) {
+          store_.put(row, Status::ok, answer);
+          if (batch_.unsure && is_unsure) batch_.unsure[row] = 1;
+        },
+        [this](size_t row) { put_exact(row); });
   }
 
  private:
@@ -104,17 +95,17 @@ class RoundRows {
 
   // False if lanes do not take the row.
   bool add(size_t row, Pair pair) {
-    const size_t place = waiting_.count;
-    const auto a = stated_core_of(shape_of(a_, pair.a), waiting_.own_a[place]);
-    const auto b = stated_core_of(shape_of(b_, pair.b), waiting_.own_b[place]);
+    CoreRowsWithPoints& rows = waiting_.rows;
+    const auto a = stated_core_of(shape_of(a_, pair.a), rows.own_a[rows.count]);
+    const auto b = stated_core_of(shape_of(b_, pair.b), rows.own_b[rows.count]);
     if (!a || !b) return false;
-    row_of_[place] = static_cast<uint16_t>(row);
+    waiting_.name_next(row);
     const Position<double> p = a_.position<double>(pair.a), q = b_.position<double>(pair.b);
     return add_stated_row(*a, *b,
                           {{q.x - p.x, q.y - p.y, q.z - p.z},
                            turn_of(a_, kind_a_, pair.a),
                            turn_of(b_, kind_b_, pair.b)},
-                          waiting_);
+                          rows);
   }
 
   static scalar::Quaternion<double> turn_of(const BodyReader& body, ShapeKind kind, size_t index) {
@@ -136,9 +127,7 @@ class RoundRows {
   const Collidables view_a_, view_b_;
   const BodyReader a_{view_a_}, b_{view_b_};
   const RowStore store_;
-  const FindCoreGaps find_gaps_ = find_core_gaps();
-  CoreRowsWithPoints& waiting_ = core_rows_of_thread();
-  std::array<uint16_t, CoreRows::kMost> row_of_;
+  WaitingRows waiting_;
 };
 
 }  // namespace
