@@ -107,6 +107,14 @@ inline NearestWay start_of_round_depth(const Core& a, const Core& b, const Round
           .of_a = {of_p, of_q, of_r, gjk.last.of_a}};
 }
 
+// The way along which GJK finds the cores, grown by their radii, apart, if it leaves more.
+inline void keep_parting_way(const Core& a, const Core& b, FurthestPoint furthest, WayOut& out) {
+  const RoundGjk gjk(a, b, furthest, {.decides_separate = true});
+  const double distance = std::sqrt(gjk.squared);
+  if (gjk.end != RoundGjk::End::apart || !(gjk.gap / distance > out.gap)) return;
+  out = {.normal = gjk.point * (1 / distance), .gap = gjk.gap / distance};
+}
+
 // One of the cores is round.
 inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthest,
                               const RoundGoal& goal) {
@@ -137,6 +145,8 @@ inline CoreGap find_round_gap(const Core& a, const Core& b, FurthestPoint furthe
   if (distance > kTouchingRound && parted > out.gap) {
     out = {.normal = nearest.way * (1 / distance), .gap = parted};
   }
+  // A gap that GJK met on its way decides that shapes are apart that nearly touch.
+  if (std::fabs(out.gap - gjk.radius) <= kTouchingWay) keep_parting_way(a, b, furthest, out);
   if (!out.has_point && nearest.corners.size() < 4 && distance - out.gap <= kTouchingWay) {
     out.has_point = true;
     out.of_a = spanned_of_a(nearest.corners, nearest.way, nearest.of_a);

@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/profile-inl.h"
+#include "narrowphase/pairs/sphere/sphere_ellipsoid_scalar.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -53,6 +54,21 @@ struct EllipsoidSearch {
   }
 };
 
+HWY_INLINE Mask is_at_thin_rim(const F3& semi_axes, const EllipsoidSearch& search,
+                               const F3& gradient) {
+  const auto of_rim = [&](F axis, F slope, F beyond) HWY_ATTR {
+    const F q = hn::Mul(axis, slope);
+    return hn::IfThenElseZero(hn::Gt(beyond, search.s), hn::Mul(q, q));
+  };
+  const F3& beyond = search.beyond;
+  const F sum = hn::Add(
+      hn::Add(of_rim(semi_axes.x, gradient.x, beyond.x), of_rim(semi_axes.y, gradient.y, beyond.y)),
+      of_rim(semi_axes.z, gradient.z, beyond.z));
+  const F most = max(max(beyond.x, beyond.y), beyond.z);
+  return hn::And(hn::Lt(search.s, hn::Mul(splat(scalar::kThinRim), most)),
+                 hn::Gt(sum, splat(scalar::kMostOfSum)));
+}
+
 HWY_INLINE WayOutLanes way_out_of_ellipsoid(const F3& semi_axes, const F3& point) {
   const F3 y = {hn::Abs(point.x), hn::Abs(point.y), hn::Abs(point.z)};
   const EllipsoidSearch search(semi_axes, y);
@@ -64,7 +80,7 @@ HWY_INLINE WayOutLanes way_out_of_ellipsoid(const F3& semi_axes, const F3& point
   const F gap = hn::Sub(dot(n, y), hn::Sqrt(dot(h, h)));
   const F3 out = {hn::CopySign(n.x, point.x), hn::CopySign(n.y, point.y),
                   hn::CopySign(n.z, point.z)};
-  return {gap, out, hn::Not(search.is_found)};
+  return {gap, out, hn::Or(hn::Not(search.is_found), is_at_thin_rim(semi_axes, search, gradient))};
 }
 
 struct SphereEllipsoid {

@@ -49,6 +49,22 @@ struct EllipsoidSearch {
   }
 };
 
+// Near the rim of a thin ellipsoid s is a difference of squares that rounding has left few digits:
+// it is a smaller share of them than this, and they make most of the sum.
+inline constexpr float kThinRim = 0x1p-12f;
+inline constexpr float kMostOfSum = 0.75f;
+
+inline bool is_at_thin_rim(const Vector3<float>& semi_axes, const EllipsoidSearch& search,
+                           const Vector3<float>& gradient) {
+  float of_rim = 0, most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const float q = semi_axes[i] * gradient[i];
+    of_rim += search.beyond[i] > search.s ? q * q : 0.0f;
+    most = max(most, search.beyond[i]);
+  }
+  return search.s < kThinRim * most && of_rim > kMostOfSum;
+}
+
 inline WayOut way_out_of_ellipsoid(const Vector3<float>& semi_axes, const Vector3<float>& point) {
   const Vector3<float> y = point.cwiseAbs();
   const EllipsoidSearch search(semi_axes, y);
@@ -59,7 +75,7 @@ inline WayOut way_out_of_ellipsoid(const Vector3<float>& semi_axes, const Vector
   const float gap = dot(n, y) - std::sqrt(dot(h, h));
   const Vector3<float> out(std::copysign(n.x(), point.x()), std::copysign(n.y(), point.y()),
                            std::copysign(n.z(), point.z()));
-  return {gap, out, !search.is_found};
+  return {gap, out, !search.is_found || is_at_thin_rim(semi_axes, search, gradient)};
 }
 
 inline Separation separation(const SphereShape<float>& sphere,

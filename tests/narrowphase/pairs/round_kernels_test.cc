@@ -183,7 +183,18 @@ TEST(RoundKernelCases, CornersOnTheAxisAreNotSure) {
   EXPECT_TRUE(floats_of(cylinder, triangle, {0, 0, 0.3f}).is_unsure);
 }
 
-// Of coaxial shapes a cap may be as near as the whole ring of sides. No arc leads from the one to
+// Near the rim of a thin ellipsoid the search for the nearest point subtracts nearly equal squares.
+TEST(RoundKernelCases, RimsOfThinEllipsoidsAreNotSure) {
+  const Shape point = Sphere{0};
+  const Shape needle = Ellipsoid{{0x1.4a1a3ap-8f, 0x1.660c42p-6f, 0x1.bc5252p-1f}};
+  EXPECT_TRUE(floats_of(point, needle, {1.44541264e-06f, 0.00023457408f, -0.867765486f}).is_unsure);
+  const Shape disc = Ellipsoid{{0x1.23c2bp-7f, 0x1.84af8ep-1f, 0x1.881456p-1f}};
+  const Eigen::Vector3f at(0x1.76477p-21f, 0x1.5d73c0p-6f, -0x1.87ecb6p-1f);
+  EXPECT_TRUE(floats_of(point, disc, at).is_unsure);
+  EXPECT_NEAR(doubles_of(point, disc, at.cast<double>()).separation, 0, 1e-6);
+}
+
+// The cap of coaxial shapes may be as near as the whole ring of sides. No arc leads from the one to
 // the other.
 TEST(RoundKernelCases, CapsOfCoaxialShapesAreFound) {
   const Shape wide = Cylinder{0x1.291832p+0f, 0x1.62f928p+0f};
