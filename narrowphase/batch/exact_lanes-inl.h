@@ -53,6 +53,14 @@ template <class V, class Visit>
 HWY_INLINE void visit_numbers(BoxOf<V>& box, Visit& visit) {
   visit_numbers(box.half, visit);
 }
+template <class V, ShapeKind kRound, class Visit>
+HWY_INLINE void visit_numbers(RimOf<V, kRound>& round, Visit& visit) {
+  visit(round.radius), visit(round.half_length), visit(round.rounding);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(EllipsoidOf<V>& ellipsoid, Visit& visit) {
+  visit_numbers(ellipsoid.semi_axes, visit), visit(ellipsoid.rounding);
+}
 template <class V, class Visit>
 HWY_INLINE void visit_numbers(TriangleOf<V>& triangle, Visit& visit) {
   visit_numbers(triangle.a, visit), visit_numbers(triangle.b, visit);
@@ -122,10 +130,12 @@ class ExactLanes {
   // Finds the answers of the lanes whose bits are set, and whose bodies are valid. Returns a bit
   // for each of these whose status is degenerate.
   HWY_NOINLINE uint64_t find(uint64_t lanes) {
-    constexpr uint64_t kHalf = (uint64_t{1} << kDoubleLanes) - 1;
-    const auto count = static_cast<size_t>(std::popcount(lanes));
-    const bool is_in_both_halves = (lanes & kHalf) != 0 && (lanes & ~kHalf) != 0;
-    if (is_in_both_halves && count <= kDoubleLanes) return find_packed(lanes, count);
+    if constexpr (kLanes > kDoubleLanes) {
+      constexpr uint64_t kHalf = (uint64_t{1} << kDoubleLanes) - 1;
+      const auto count = static_cast<size_t>(std::popcount(lanes));
+      const bool is_in_both_halves = (lanes & kHalf) != 0 && (lanes & ~kHalf) != 0;
+      if (is_in_both_halves && count <= kDoubleLanes) return find_packed(lanes, count);
+    }
     load(Listed{batch_.pairs + row_});
     return find_loaded(lanes, [](size_t place) { return place; });
   }

@@ -63,6 +63,31 @@ struct BoxOf {
   HWY_INLINE void scale(V s) { half = half * s; }
 };
 
+// Cylinders and cones: the rim is this far from the axis, and so far from the middle.
+template <class V, ShapeKind kRound>
+struct RimOf {
+  V radius, half_length, rounding;
+
+  HWY_INLINE V extent() const { return max(max(radius, half_length), rounding); }
+  HWY_INLINE void scale(V s) {
+    radius = hn::Mul(radius, s);
+    half_length = hn::Mul(half_length, s);
+    rounding = hn::Mul(rounding, s);
+  }
+};
+
+template <class V>
+struct EllipsoidOf {
+  Lanes3<V> semi_axes;
+  V rounding;
+
+  HWY_INLINE V extent() const { return max(largest_component(semi_axes), rounding); }
+  HWY_INLINE void scale(V s) {
+    semi_axes = semi_axes * s;
+    rounding = hn::Mul(rounding, s);
+  }
+};
+
 template <class V>
 struct TriangleOf {
   Lanes3<V> a, b, c;
@@ -237,12 +262,13 @@ struct BoxLanes : BoxOf<F> {
   HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
 };
 
-// Cylinders and cones: the rim is this far from the axis, and so far from the middle.
 template <ShapeKind kRound>
-struct RimLanes {
+struct RimLanes : RimOf<F, kRound> {
+  template <class V>
+  using Of = RimOf<V, kRound>;
   static constexpr ShapeKind kKind = kRound;
   static constexpr bool kIsOriented = true;
-  F radius, half_length, rounding;
+  using Of<F>::radius, Of<F>::half_length, Of<F>::rounding;
 
   static bool is_dense(const BatchSide&) { return true; }
 
@@ -252,7 +278,7 @@ struct RimLanes {
     F3 row;
     F rounding;
     load_row<kRole, 1>(side, bodies, 0, row, rounding);
-    return {row.x, row.y, rounding};
+    return {{row.x, row.y, rounding}};
   }
   HWY_INLINE Mask is_ordered() const {
     return hn::Ge(min(min(radius, half_length), rounding), splat(0));
@@ -263,21 +289,15 @@ struct RimLanes {
     half_length = hn::IfThenElseZero(keep, half_length);
     rounding = hn::IfThenElseZero(keep, rounding);
   }
-  HWY_INLINE F extent() const { return max(max(radius, half_length), rounding); }
-  HWY_INLINE void scale(F s) {
-    radius = hn::Mul(radius, s);
-    half_length = hn::Mul(half_length, s);
-    rounding = hn::Mul(rounding, s);
-  }
 };
 using CylinderLanes = RimLanes<ShapeKind::cylinder>;
 using ConeLanes = RimLanes<ShapeKind::cone>;
 
-struct EllipsoidLanes {
+struct EllipsoidLanes : EllipsoidOf<F> {
+  template <class V>
+  using Of = EllipsoidOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::ellipsoid;
   static constexpr bool kIsOriented = true;
-  F3 semi_axes;
-  F rounding;
 
   static bool is_dense(const BatchSide&) { return true; }
 
@@ -295,11 +315,6 @@ struct EllipsoidLanes {
   HWY_INLINE void clear_unless(Mask keep) {
     semi_axes = zero_unless(keep, semi_axes);
     rounding = hn::IfThenElseZero(keep, rounding);
-  }
-  HWY_INLINE F extent() const { return max(largest_component(semi_axes), rounding); }
-  HWY_INLINE void scale(F s) {
-    semi_axes = semi_axes * s;
-    rounding = hn::Mul(rounding, s);
   }
 };
 

@@ -7,6 +7,7 @@
 #include "narrowphase/manifolds/face_contact-inl.h"
 #include "narrowphase/manifolds/hull_side-inl.h"
 #include "narrowphase/manifolds/rectangles-inl.h"
+#include "narrowphase/manifolds/round_side-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -98,6 +99,7 @@ template void touch_faces(FaceSide<PolygonFace<4>>&, FaceSide<PolygonFace<4>>&, 
 template void touch_faces(FaceSide<PolygonFace<kMostSideCorners>>&,
                           FaceSide<PolygonFace<kMostSideCorners>>&, const ContactLanes&,
                           PointLanes&);
+template void touch_faces(RimSide&, RimSide&, const ContactLanes&, PointLanes&);
 
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

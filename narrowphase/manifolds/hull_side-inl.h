@@ -34,14 +34,7 @@ HWY_INLINE void hull_side(const Placed& placed, const FacingFaces& found,
   face.frame.v = rotate(placed.turn, v);
   face.frame.n = rotate(placed.turn, n);
   face.frame.height = splat(0);
-  face.lower_x = face.upper_x = face.x[0];
-  face.lower_y = face.upper_y = face.y[0];
-  for (size_t k = 1; k < kMost; ++k) {
-    face.lower_x = min(face.lower_x, face.x[k]);
-    face.lower_y = min(face.lower_y, face.y[k]);
-    face.upper_x = max(face.upper_x, face.x[k]);
-    face.upper_y = max(face.upper_y, face.y[k]);
-  }
+  set_bounds(face);
 }
 
 // A triangle as a polygon. As in clip_to_extent(), only x has bounds.

@@ -84,10 +84,10 @@ class ManifoldLoop {
          hn::Mul(column(tested.point_a[2]), down)},
         batch.reach ? min(hn::Mul(column(batch.reach), down), splat(kGreatestReach)) : splat(0)};
     PointLanes points;
-    if constexpr (A::kKind == ShapeKind::hull || B::kKind == ShapeKind::hull) {
-      leave_unless(contact_points(a, b, placed, contact, points), batch, row);
-    } else {
+    if constexpr (std::is_void_v<decltype(contact_points(a, b, placed, contact, points))>) {
       contact_points(a, b, placed, contact, points);
+    } else {
+      leave_unless(contact_points(a, b, placed, contact, points), batch, row);
     }
     const ManifoldPlaces places(batch.out, batch.manifold_row + row, row_count);
     put_records(points, contact, up, batch.frame, positions, places);

@@ -72,6 +72,19 @@ struct PolygonFace {
   }
 };
 
+// The bounds of the corners.
+template <size_t kMost>
+HWY_INLINE void set_bounds(PolygonFace<kMost>& face) {
+  face.lower_x = face.upper_x = face.x[0];
+  face.lower_y = face.upper_y = face.y[0];
+  for (size_t k = 1; k < kMost; ++k) {
+    face.lower_x = min(face.lower_x, face.x[k]);
+    face.lower_y = min(face.lower_y, face.y[k]);
+    face.upper_x = max(face.upper_x, face.x[k]);
+    face.upper_y = max(face.upper_y, face.y[k]);
+  }
+}
+
 // A face, and its corners relative to the position of A.
 template <class Face>
 struct FaceSide {

@@ -15,9 +15,9 @@ inline float edge_radius(const auto& shape) {
 // Sides of the other shapes, with frames that lie on them.
 inline FacingSide side_of_polygon(const FaceFrame& frame, std::span<const Point2> points) {
   FacingSide side;
-  side.face.frame = frame;
+  side.face.frame = {frame.origin + frame.n * frame.height, frame.u, frame.v, frame.n, 0};
   for (const Point2& p : points) {
-    side.corners.push_back(frame.point(p.x, p.y));
+    side.corners.push_back(side.face.frame.point(p.x, p.y));
     side.face.points.push_back(p);
   }
   return side;

@@ -39,7 +39,7 @@ struct CapsuleCylinder : RoundKernel {
   }
 };
 
-void capsule_cylinder(const Batch& batch) { run_round_kernel<CapsuleCylinder>(batch); }
+void capsule_cylinder(const Batch& batch) { run_round_tests<CapsuleCylinder>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

@@ -52,7 +52,7 @@ struct EllipsoidEllipsoid : RoundKernel {
   }
 };
 
-void ellipsoid_ellipsoid(const Batch& batch) { run_round_kernel<EllipsoidEllipsoid>(batch); }
+void ellipsoid_ellipsoid(const Batch& batch) { run_round_tests<EllipsoidEllipsoid>(batch); }
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

@@ -7,6 +7,8 @@
 #endif
 
 #include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/manifolds/round_points-inl.h"
 #include "narrowphase/pairs/manifold_batch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,9 +20,20 @@ struct RoundKernel {
   static constexpr Columns kColumns = Columns::as_asked;
 };
 
-// Their manifolds are found one at a time.
+// Manifolds in lanes, and one at a time what those leave.
 template <class Kernel>
 void run_round_kernel(const Batch& batch) {
+  using A = typename Kernel::A;
+  using B = typename Kernel::B;
+  if (batch.pass == Pass::manifold) {
+    return run_manifolds(batch, A::kKind, B::kKind, run_manifold<A, B>);
+  }
+  run_batch<Kernel>(batch);
+}
+
+// Manifolds one at a time.
+template <class Kernel>
+void run_round_tests(const Batch& batch) {
   if (batch.pass == Pass::manifold) {
     return run_manifolds_one_by_one(batch, Kernel::A::kKind, Kernel::B::kKind);
   }
