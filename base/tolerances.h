@@ -56,8 +56,15 @@ inline constexpr float kLeastShift = 0x1p-60f;
 inline constexpr float kNearSurface = 0x1p-9f;
 inline constexpr size_t kMostEllipsoidSteps = 8;
 
-// Cylinders, in scaled units. Axes with a smaller sine between them have no frame in float32.
-inline constexpr float kCrossingAxes = 0x1p-5f;
+// Cylinders, in scaled units. The sine between two axes below which they are parallel, that below
+// which lines of their sides are, and that below which the rims of caps that face each other cross
+// as circles in one plane do, about.
+inline constexpr float kParallelAxes = 0x1p-21f;
+inline constexpr float kCrossingLines = 0x1p-10f;
+inline constexpr float kNearAxes = 0x1p-5f;
+
+// Where nearly parallel cylinders are as far along a direction, but for this, discs or lines touch.
+inline constexpr float kFlatTogether = 0x1p-19f;
 
 // A shorter half of a segment has no direction in float32.
 inline constexpr float kShortAxis = 0x1p-12f;

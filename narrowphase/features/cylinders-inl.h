@@ -10,17 +10,14 @@
 #include <array>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/axial_core-inl.h"
 #include "narrowphase/features/edge_arc-inl.h"
+#include "narrowphase/features/segment-inl.h"
 #include "narrowphase/features/start_directions-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
-
-struct AxialCoreLanes {
-  F3 axis;
-  F half_length, rim;
-};
 
 struct CylinderContactLanes {
   F separation;
@@ -42,7 +39,7 @@ class CylinderPairLanes {
     const F3 across = cross(a.axis, b_axis);
     cosine_ = hn::Abs(along);
     sine_ = hn::Sqrt(dot(across, across));
-    const F3 up = across * hn::Div(splat(1), sine_);
+    const F3 up = across_axes(a.axis, across, t);
     y_ = cross(up, a.axis);
     const F height = dot(up, t);
     z_ = select(hn::Lt(height, zero), -up, up);
@@ -72,6 +69,20 @@ class CylinderPairLanes {
   }
 
  private:
+  HWY_INLINE F3 across_axes(const F3& axis, const F3& across, const F3& t) const {
+    F3 way = across * hn::Div(splat(1), sine_);
+    const Mask is_parallel = hn::Not(hn::Ge(sine_, splat(kParallelAxes)));
+    if (HWY_UNLIKELY(!hn::AllFalse(FloatTag(), is_parallel))) {
+      const F3 aside = part_across(t, axis, dot(t, axis));
+      const F squared = dot(aside, aside);
+      const F3 towards = select(hn::Gt(squared, splat(kLeastWay)), aside * unit_factor(squared),
+                                any_perpendicular(axis));
+      way = select(is_parallel, towards, way);
+    }
+    way = way - axis * dot(axis, way);
+    return way * unit_factor(dot(way, way));
+  }
+
   static HWY_INLINE F rank(F gap, Mask has_ended) {
     return hn::Sub(gap, hn::IfThenZeroElse(has_ended, splat(kNotEnded)));
   }
@@ -178,7 +189,7 @@ class CylinderPairLanes {
             hn::Sub(t_.y, hn::Mul(b, sine_)), t_.z};
   }
 
-  class Starts : public StartDirections<18> {
+  class Starts : public StartDirections<19> {
    public:
     HWY_INLINE explicit Starts(const CylinderPairLanes& pair) {
       for (const float sign_a : {1.0f, -1.0f}) {
@@ -186,6 +197,7 @@ class CylinderPairLanes {
       }
       add_cap_of_a(pair);
       add_cap_of_b(pair);
+      add_crossing_rims(pair);
     }
 
    private:
@@ -235,6 +247,26 @@ class CylinderPairLanes {
       add({hn::Sub(hn::Mul(cosine, along), hn::Mul(sine, beside)),
            hn::Add(hn::Mul(sine, along), hn::Mul(cosine, beside)), hn::Mul(w.z, share)},
           hn::Gt(min(above, share), splat(0)), pair);
+    }
+
+    HWY_INLINE void add_crossing_rims(const CylinderPairLanes& pair) {
+      const F zero = splat(0), one = splat(1);
+      const F sign = sign_of(pair.t_.x);
+      const F tilt = hn::Mul(sign, pair.sine_);
+      const F c_y = hn::Sub(pair.t_.y, hn::Mul(pair.half_b_, tilt)), c_z = pair.t_.z;
+      const F squared = max(hn::Add(hn::Mul(c_y, c_y), hn::Mul(c_z, c_z)), splat(kLeastWay));
+      const F between =
+          hn::Mul(hn::Sub(pair.rim_a_, pair.rim_b_), hn::Add(pair.rim_a_, pair.rim_b_));
+      const F share = hn::Mul(splat(0.5f), hn::Add(one, hn::Div(between, squared)));
+      const F aside =
+          hn::Sub(hn::Div(hn::Mul(pair.rim_a_, pair.rim_a_), squared), hn::Mul(share, share));
+      const F half = hn::Sqrt(max(aside, splat(kLeastWay)));
+      const F p_y = hn::Add(hn::Mul(share, c_y), hn::Mul(sign, hn::Mul(half, c_z)));
+      const F p_z = hn::Sub(hn::Mul(share, c_z), hn::Mul(sign, hn::Mul(half, c_y)));
+      const F length = hn::Div(hn::Mul(pair.sine_, hn::Sub(c_z, p_z)), hn::Mul(half, squared));
+      const Mask may = hn::And(hn::And(hn::Lt(pair.sine_, splat(kNearAxes)), hn::Gt(aside, zero)),
+                               hn::And(hn::Gt(p_z, zero), hn::Lt(p_z, c_z)));
+      add({sign, hn::Mul(length, p_y), hn::Mul(length, p_z)}, may, pair);
     }
   };
 
@@ -308,34 +340,6 @@ class CylinderPairLanes {
   F cosine_, sine_;
 };
 
-HWY_INLINE F reach(const AxialCoreLanes& core, const F3& n) {
-  const F along = dot(core.axis, n);
-  const F3 across = n - core.axis * along;
-  return hn::Add(hn::Mul(core.half_length, hn::Abs(along)),
-                 hn::Mul(core.rim, hn::Sqrt(dot(across, across))));
-}
-
-HWY_INLINE F3 part_across(const F3& n, const F3& axis, F along) {
-  const F3 across = n - axis * along;
-  return across - axis * dot(axis, across);
-}
-
-HWY_INLINE F3 furthest_point(const AxialCoreLanes& core, const F3& n) {
-  const F along = dot(core.axis, n);
-  const F3 across = part_across(n, core.axis, along);
-  const F over = hn::Div(splat(1), max(hn::Sqrt(dot(across, across)), splat(kLeastRim)));
-  return core.axis * hn::CopySign(core.half_length, along) + across * hn::Mul(core.rim, over);
-}
-
-HWY_INLINE Mask holds(const AxialCoreLanes& core, const F3& p, float most = kBesideCore) {
-  const F along = dot(core.axis, p);
-  const F3 across = p - core.axis * along;
-  const F reach = hn::Add(core.rim, splat(most));
-  const Mask is_within = hn::And(hn::Le(hn::Abs(along), hn::Add(core.half_length, splat(most))),
-                                 hn::Le(dot(across, across), hn::Mul(reach, reach)));
-  return hn::And(hn::Ge(reach, splat(0)), is_within);
-}
-
 // Not inlined: two kinds of pairs call it, and it is long.
 inline HWY_NOINLINE CylinderContactLanes cylinder_contact(const AxialCoreLanes& a,
                                                           const AxialCoreLanes& b, const F3& t) {
@@ -347,10 +351,18 @@ inline HWY_NOINLINE CylinderContactLanes cylinder_contact(const AxialCoreLanes& 
   const F separation = hn::Sub(dot(n, t), hn::Add(reach(a, n), reach(b, n)));
   const F3 crossing = a.axis * pair.crossing() + n * a.rim;
   const F3 flat = select(found.is_flat_b, crossing, from_b - n * separation);
-  const F3 on_a = select(found.is_flat_a, flat, from_a);
+  F3 on_a = select(found.is_flat_a, flat, from_a);
+  const Mask are_parallel = hn::Lt(pair.sine(), splat(kCrossingLines));
+  if (!hn::AllFalse(FloatTag(), are_parallel)) {
+    const SpreadLanes spread_a(a, n), spread_b(b, n);
+    const F middle = middle_of_both(a.half_length, dot(a.axis, t), b.half_length);
+    on_a = select(hn::And(are_parallel, hn::And(spread_a.is_line, spread_b.is_line)),
+                  a.axis * middle + n * a.rim, on_a);
+    on_a = select(hn::And(are_parallel, hn::And(spread_a.is_disc, spread_b.is_disc)),
+                  between_discs(a, b, n, t), on_a);
+  }
   const F3 on_b = (on_a + n * separation) - t;
-  const Mask is_sure = hn::And(hn::And(found.has_ended, hn::Ge(pair.sine(), splat(kCrossingAxes))),
-                               hn::And(holds(a, on_a), holds(b, on_b)));
+  const Mask is_sure = hn::And(found.has_ended, hn::And(holds(a, on_a), holds(b, on_b)));
   const F3 common = on_a + n * hn::Mul(separation, splat(0.5f));
   const Mask is_common = hn::And(holds(a, common, -kSureGap), holds(b, common - t, -kSureGap));
   return {separation, n, on_a, is_sure, hn::Or(is_common, hn::Gt(separation, splat(0)))};

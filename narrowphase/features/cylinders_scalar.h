@@ -25,16 +25,12 @@
 #include <array>
 
 #include "base/tolerances.h"
+#include "narrowphase/features/axial_core_scalar.h"
+#include "narrowphase/features/segment_scalar.h"
 #include "narrowphase/features/start_directions_scalar.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {
-
-// A disc that moves along its axis from -half_length to half_length.
-struct AxialCore {
-  Vector3<float> axis;  // unit
-  float half_length, rim;
-};
 
 struct CylinderContact {
   float separation;
@@ -54,7 +50,7 @@ class CylinderPair {
     const Vector3<float> across = cross(a.axis, b_axis);
     cosine_ = std::fabs(along);
     sine_ = std::sqrt(dot(across, across));
-    const Vector3<float> up = across * (1 / sine_);
+    const Vector3<float> up = across_axes(a.axis, across, t);
     y_ = cross(up, a.axis);
     const float height = dot(up, t);
     z_ = height < 0 ? Vector3<float>(-up) : up;
@@ -91,6 +87,21 @@ class CylinderPair {
   }
 
  private:
+  // A unit vector across both axes: of parallel ones towards t. What rounding leaves along A's axis
+  // is taken away.
+  Vector3<float> across_axes(const Vector3<float>& axis, const Vector3<float>& across,
+                             const Vector3<float>& t) const {
+    Vector3<float> way = across * (1 / sine_);
+    if (!(sine_ >= kParallelAxes)) {
+      const Vector3<float> aside = part_across(t, axis, dot(t, axis));
+      const float squared = dot(aside, aside);
+      way = squared > kLeastWay ? Vector3<float>(aside * (1 / std::sqrt(squared)))
+                                : any_perpendicular(axis);
+    }
+    way -= axis * dot(axis, way);
+    return way * (1 / std::sqrt(dot(way, way)));
+  }
+
   float gap(const Vector3<float>& n) const {
     const float along_b = cosine_ * n.x() + sine_ * n.y();
     const float across_b = cosine_ * n.y() - sine_ * n.x();
@@ -170,7 +181,7 @@ class CylinderPair {
     return {(t_.x() - sign_a * half_a_) - b * cosine_, t_.y() - b * sine_, t_.z()};
   }
 
-  class Starts : public StartDirections<18> {
+  class Starts : public StartDirections<19> {
    public:
     explicit Starts(const CylinderPair& pair) : pair_(pair) {
       for (const float sign_a : {1.0f, -1.0f}) {
@@ -178,6 +189,7 @@ class CylinderPair {
       }
       add_cap_of_a();
       add_cap_of_b();
+      add_crossing_rims();
     }
 
    private:
@@ -225,6 +237,23 @@ class CylinderPair {
       const float along = sign * above, beside = across * share;
       add({cosine * along - sine * beside, sine * along + cosine * beside, w.z() * share},
           min(above, share) > 0);
+    }
+
+    // Caps that face each other, nearly parallel: where their rims cross, seen along A's axis. The
+    // gap along (sign, w) is then about c . w - rim_a |w| - rim_b |w - tilt|, for a vector c
+    // between the middles of the caps, so that the crossing gives the directions of w and w - tilt.
+    void add_crossing_rims() {
+      const float sign = std::copysign(1.0f, pair_.t_.x());
+      const float tilt = sign * pair_.sine_, rim_a = pair_.rim_a_, rim_b = pair_.rim_b_;
+      const float c_y = pair_.t_.y() - pair_.half_b_ * tilt, c_z = pair_.t_.z();
+      const float squared = max(c_y * c_y + c_z * c_z, kLeastWay);
+      const float share = 0.5f * (1 + (rim_a - rim_b) * (rim_a + rim_b) / squared);
+      const float aside = rim_a * rim_a / squared - share * share;
+      const float half = std::sqrt(max(aside, kLeastWay));
+      const float p_y = share * c_y + sign * (half * c_z), p_z = share * c_z - sign * (half * c_y);
+      const float length = pair_.sine_ * (c_z - p_z) / (half * squared);
+      const bool may = pair_.sine_ < kNearAxes && aside > 0 && p_z > 0 && p_z < c_z;
+      add({sign, length * p_y, length * p_z}, may);
     }
 
     const CylinderPair& pair_;
@@ -295,38 +324,6 @@ class CylinderPair {
   float cosine_, sine_;
 };
 
-// How far a core about zero reaches along n.
-inline float reach(const AxialCore& core, const Vector3<float>& n) {
-  const float along = dot(core.axis, n);
-  const Vector3<float> across = n - core.axis * along;
-  return core.half_length * std::fabs(along) + core.rim * std::sqrt(dot(across, across));
-}
-
-// The part of a unit vector that is across a unit axis. What rounding leaves along the axis counts
-// if the vector nearly lies on it, so it is taken away once more.
-inline Vector3<float> part_across(const Vector3<float>& n, const Vector3<float>& axis,
-                                  float along) {
-  const Vector3<float> across = n - axis * along;
-  return across - axis * dot(axis, across);
-}
-
-// The point of a core about zero that is furthest along n.
-inline Vector3<float> furthest_point(const AxialCore& core, const Vector3<float>& n) {
-  const float along = dot(core.axis, n);
-  const Vector3<float> across = part_across(n, core.axis, along);
-  const float over = 1 / max(std::sqrt(dot(across, across)), kLeastRim);
-  return core.axis * std::copysign(core.half_length, along) + across * (core.rim * over);
-}
-
-// Whether a point lies in the core, or beside it by no more than `most`.
-inline bool holds(const AxialCore& core, const Vector3<float>& p, float most = kBesideCore) {
-  const float along = dot(core.axis, p);
-  const Vector3<float> across = p - core.axis * along;
-  const float reach = core.rim + most;
-  return reach >= 0 && std::fabs(along) <= core.half_length + most &&
-         dot(across, across) <= reach * reach;
-}
-
 // `t`: from the middle of A to that of B.
 inline CylinderContact cylinder_contact(const AxialCore& a, const AxialCore& b,
                                         const Vector3<float>& t) {
@@ -336,14 +333,19 @@ inline CylinderContact cylinder_contact(const AxialCore& a, const AxialCore& b,
   const Vector3<float> n = way * (1 / std::sqrt(dot(way, way)));
   const Vector3<float> from_a = furthest_point(a, n), from_b = t - furthest_point(b, n);
   const float separation = dot(n, t) - (reach(a, n) + reach(b, n));
+  const Spread spread_a(a, n), spread_b(b, n);
+  const bool are_parallel = pair.sine() < kCrossingLines;
   Vector3<float> on_a = from_a;
-  if (found.is_flat_a) {
+  if (are_parallel && spread_a.is_disc && spread_b.is_disc) {
+    on_a = between_discs(a, b, n, t);
+  } else if (are_parallel && spread_a.is_line && spread_b.is_line) {
+    on_a = a.axis * middle_of_both(a.half_length, dot(a.axis, t), b.half_length) + n * a.rim;
+  } else if (found.is_flat_a) {
     on_a = found.is_flat_b ? Vector3<float>(a.axis * pair.crossing() + n * a.rim)
                            : Vector3<float>(from_b - n * separation);
   }
   const Vector3<float> on_b = (on_a + n * separation) - t;
-  const bool is_sure =
-      found.has_ended && pair.sine() >= kCrossingAxes && holds(a, on_a) && holds(b, on_b);
+  const bool is_sure = found.has_ended && holds(a, on_a) && holds(b, on_b);
   return {separation, n, on_a, is_sure};
 }
 
