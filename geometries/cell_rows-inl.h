@@ -60,26 +60,31 @@ class HeightRows {
 // windows are narrow.
 class LaneCells {
  public:
-  LaneCells(const HeightFieldGeometry& field, const CellRange& window)
-      : cells_(window.end_i - window.first_i),
-        rows_(kCellLanes == NearPoints::kRoom && cells_ <= kCellLanes / 2 ? 2 : 1) {
-    for (size_t lane = 0; lane < kCellLanes; ++lane) {
-      const size_t row = lane / columns(), column = lane % columns();
-      row_[lane] = static_cast<float>(row);
-      column_[lane] = static_cast<float>(column);
-      number_[lane] = static_cast<uint32_t>(2 * (row * field.cells_x() + column));
-    }
+  HWY_INLINE LaneCells(const HeightFieldGeometry& field, const CellRange& window)
+      : rows_(are_in_two_rows(window) ? 2 : 1) {
+    const CellTag tag;
+    const Numbers number_tag;
+    const Cells lane = hn::Iota(tag, 0.0f);
+    const Cells half = splat_cells(static_cast<float>(kCellLanes) / 2);
+    is_second_ =
+        hn::And(hn::Ge(lane, half), hn::Gt(splat_cells(static_cast<float>(rows_)), splat_cells(1)));
+    column_ = hn::Sub(lane, hn::IfThenElseZero(is_second_, half));
+    const auto to_second =
+        hn::Set(number_tag, static_cast<uint32_t>(field.cells_x() - kCellLanes / 2));
+    const auto cell =
+        hn::Add(hn::Iota(number_tag, 0u),
+                hn::IfThenElseZero(hn::RebindMask(number_tag, is_second_), to_second));
+    number_ = hn::Add(cell, cell);
   }
 
   uint32_t rows() const { return rows_; }
   uint32_t columns() const { return static_cast<uint32_t>(kCellLanes) / rows_; }
-  HWY_INLINE Cells row() const { return hn::Load(CellTag(), row_); }
-  HWY_INLINE Cells column() const { return hn::Load(CellTag(), column_); }
+  HWY_INLINE Cells column() const { return column_; }
   HWY_INLINE Cells of_rows(float first, float second) const {
-    return hn::IfThenElse(hn::Lt(row(), splat_cells(1)), splat_cells(first), splat_cells(second));
+    return hn::IfThenElse(is_second_, splat_cells(second), splat_cells(first));
   }
   // The number of the lower triangle, from that of the first cell.
-  HWY_INLINE auto number() const { return hn::Load(hn::RebindToUnsigned<CellTag>(), number_); }
+  HWY_INLINE auto number() const { return number_; }
 
   // The heights of some cells from a sample in each of the rows on.
   HWY_INLINE Cells heights(const float* first, [[maybe_unused]] const float* second) const {
@@ -92,15 +97,21 @@ class LaneCells {
 
   // Those of the window, where `columns` and `rows` are left.
   HWY_INLINE hn::Mask<CellTag> in_window(uint32_t columns_left, uint32_t rows_left) const {
-    return hn::And(hn::Lt(column(), splat_cells(static_cast<float>(columns_left))),
-                   hn::Lt(row(), splat_cells(static_cast<float>(rows_left))));
+    const auto in_columns = hn::Lt(column_, splat_cells(static_cast<float>(columns_left)));
+    return rows_left > 1 ? in_columns : hn::AndNot(is_second_, in_columns);
   }
 
  private:
-  uint32_t cells_, rows_;
-  HWY_ALIGN float row_[kCellLanes];
-  HWY_ALIGN float column_[kCellLanes];
-  HWY_ALIGN uint32_t number_[kCellLanes];
+  using Numbers = hn::RebindToUnsigned<CellTag>;
+
+  static bool are_in_two_rows(const CellRange& window) {
+    return kCellLanes == NearPoints::kRoom && window.end_i - window.first_i <= kCellLanes / 2;
+  }
+
+  const uint32_t rows_;
+  hn::Mask<CellTag> is_second_;
+  Cells column_;
+  hn::Vec<Numbers> number_;
 };
 
 }  // namespace
