@@ -212,8 +212,12 @@ void PartBatch::admit_waiting(const IsKnown& is_known, const MayMatter& may_matt
   for (size_t begin = 0, end = 0; begin < waiting_count_; begin = end) {
     const uint32_t owner = waiting_[begin].owner;
     size_t least = begin;
+    float lowest =
+        waiting_[begin].least_separation;  // not by its place: each would wait for the last
     for (; end < waiting_count_ && waiting_[end].owner == owner; ++end) {
-      if (waiting_[end].least_separation < waiting_[least].least_separation) least = end;
+      const float own = waiting_[end].least_separation;
+      least = own < lowest ? end : least;
+      lowest = own < lowest ? own : lowest;
     }
     const bool all = is_known(owner);
     for (size_t i = begin; i < end; ++i) {
