@@ -7,6 +7,7 @@
 
 #include "io/files/file.h"
 #include "io/models/mjcf_geom.h"
+#include "io/models/mjcf_height_field.h"
 #include "io/models/mjcf_meetings.h"
 #include "io/printable.h"
 
@@ -71,8 +72,9 @@ class MjcfReader {
 
   void read_assets(const Xml& asset) {
     files_.for_each_child(asset, [this](const Xml& e) {
-      if (std::string_view(e.Name()) == "mesh")
-        meshes_.add(e, classes_.of(e, "", errors_), errors_);
+      const std::string_view name = e.Name();
+      if (name == "mesh") meshes_.add(e, classes_.of(e, "", errors_), errors_);
+      if (name == "hfield") height_fields_.add(e, errors_);
     });
   }
 
@@ -140,9 +142,13 @@ class MjcfReader {
     MjcfGeom geom = classes_.of(element, usual_class, errors_).geom;
     read_geom(element, settings_, geom, errors_);
     if (meets_nothing(geom)) return;
-    std::shared_ptr<const ModelMesh> mesh;
-    if (geom.type == "mesh") mesh = meshes_.get(geom.mesh, folder_, settings_, element, errors_);
-    std::optional<ModelShape> shape = shape_of(element, geom, std::move(mesh), errors_);
+    MjcfAssets assets;
+    if (geom.type == "mesh") {
+      assets.mesh = meshes_.get(geom.mesh, folder_, settings_, element, errors_);
+    } else if (geom.type == "hfield") {
+      assets.heights = height_fields_.get(geom.hfield, folder_, settings_, element, errors_);
+    }
+    std::optional<ModelShape> shape = shape_of(element, geom, std::move(assets), errors_);
     if (!shape) return;
     shape->placement = inside * shape->placement;
     bodies_[body].geoms.push_back({&element, std::move(*shape), {geom.contype, geom.conaffinity}});
@@ -173,6 +179,7 @@ class MjcfReader {
   MjcfSettings settings_;
   MjcfClasses classes_;
   MjcfMeshes meshes_;
+  MjcfHeightFields height_fields_;
   std::vector<MjcfBody> bodies_;  // the world first, parents before children
   std::map<std::string, size_t> body_of_;
   MjcfMeetings meetings_;

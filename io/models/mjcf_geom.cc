@@ -99,6 +99,7 @@ void read_geom(const Xml& element, const MjcfSettings& settings, MjcfGeom& geom,
       errors);
   if (const char* type = element.Attribute("type")) geom.type = type;
   if (const char* mesh = element.Attribute("mesh")) geom.mesh = mesh;
+  if (const char* hfield = element.Attribute("hfield")) geom.hfield = hfield;
   geom.contype = read_bits(element, "contype", geom.contype, errors);
   geom.conaffinity = read_bits(element, "conaffinity", geom.conaffinity, errors);
   read_size(element, geom, errors);
@@ -227,19 +228,24 @@ void MjcfMeshes::move_vertices(const Asset& asset, ModelMesh& mesh, FirstError& 
 
 // --- Shapes ---
 
-std::optional<ModelShape> shape_of(const Xml& element, const MjcfGeom& given,
-                                   std::shared_ptr<const ModelMesh> mesh, FirstError& errors) {
+std::optional<ModelShape> shape_of(const Xml& element, const MjcfGeom& given, MjcfAssets assets,
+                                   FirstError& errors) {
   MjcfGeom geom = given;
   apply_ends(element, geom, errors);
   ModelShape shape;
   if (geom.type == "mesh") {
     shape.kind = ShapeKind::hull;
-    shape.mesh = std::move(mesh);
+    shape.mesh = std::move(assets.mesh);
     if (shape.mesh == nullptr) return std::nullopt;
+  } else if (geom.type == "hfield") {
+    if (assets.heights == nullptr) return std::nullopt;
+    shape.kind = ShapeKind::height_field;
+    shape.params = assets.heights->params;
+    shape.heights = std::move(assets.heights);
   } else if (geom.type != "plane" && sizes_of(geom.type) == 0) {
     errors.add(element, "the type " + quoted_name(geom.type) +
-                            " is not supported (plane, sphere, capsule, ellipsoid, cylinder, box "
-                            "and mesh are)");
+                            " is not supported (plane, hfield, sphere, capsule, ellipsoid, "
+                            "cylinder, box and mesh are)");
   } else if (!geom.mesh.empty()) {
     errors.add(element, "a " + geom.type + " fitted to a mesh is not supported");
   } else {

@@ -19,7 +19,7 @@ struct MjcfGeom {
   Placement placement;
   std::optional<std::array<double, 6>> ends;  // "fromto"
   uint32_t contype = 1, conaffinity = 1;      // two geoms meet if a bit of one is in the other's
-  std::string mesh;                           // name of an asset
+  std::string mesh, hfield;                   // names of assets
 };
 
 // A class of defaults for geoms and meshes.
@@ -76,8 +76,14 @@ class MjcfMeshes {
   MeshLibrary library_;
 };
 
+// What a geom shares with others: of those types alone.
+struct MjcfAssets {
+  std::shared_ptr<const ModelMesh> mesh;
+  std::shared_ptr<const ModelHeights> heights;
+};
+
 // The shape of a geom; of a mesh its convex hull, as MuJoCo has it. Nothing on failure.
-std::optional<ModelShape> shape_of(const Xml& element, const MjcfGeom& geom,
-                                   std::shared_ptr<const ModelMesh> mesh, FirstError& errors);
+std::optional<ModelShape> shape_of(const Xml& element, const MjcfGeom& geom, MjcfAssets assets,
+                                   FirstError& errors);
 
 }  // namespace carom::io

@@ -42,6 +42,7 @@ uint32_t ModelBuilder::add_shape(ShapeKind kind, const std::string& name) {
   shapes.vertex_range.emplace_back();
   shapes.triangle_range.emplace_back();
   shapes.child_range.emplace_back();
+  shapes.height_range.emplace_back();
   model_.shape_names.push_back(name);
   return static_cast<uint32_t>(shapes.kind.size() - 1);
 }
@@ -57,18 +58,31 @@ void ModelBuilder::add_mesh(const ModelMesh& mesh, uint32_t shape) {
   shapes.triangles.insert(shapes.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
 }
 
+void ModelBuilder::add_heights(const ModelHeights& heights, uint32_t shape) {
+  SceneShapes& shapes = model_.info.shapes;
+  shapes.height_range[shape] = {static_cast<uint32_t>(shapes.heights.size()),
+                                static_cast<uint32_t>(heights.samples.size())};
+  shapes.heights.insert(shapes.heights.end(), heights.samples.begin(), heights.samples.end());
+}
+
 uint32_t ModelBuilder::shape_index(const ModelShape& shape, const std::string& name) {
   std::string key(1, static_cast<char>(shape.kind));
   key.append(reinterpret_cast<const char*>(shape.params.data()), sizeof shape.params);
-  const ModelMesh* mesh = shape.mesh.get();
-  const auto address = reinterpret_cast<uintptr_t>(mesh);
-  key.append(reinterpret_cast<const char*>(&address), sizeof address);
+  for (const void* const shared : {static_cast<const void*>(shape.mesh.get()),
+                                   static_cast<const void*>(shape.heights.get())}) {
+    const auto address = reinterpret_cast<uintptr_t>(shared);
+    key.append(reinterpret_cast<const char*>(&address), sizeof address);
+  }
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   const uint32_t index = add_shape(shape.kind, name);
   model_.info.shapes.params[index] = shape.params;
-  if (mesh != nullptr) {
-    add_mesh(*mesh, index);
-    meshes_.push_back(shape.mesh);
+  if (shape.mesh != nullptr) {
+    add_mesh(*shape.mesh, index);
+    shared_.push_back(shape.mesh);
+  }
+  if (shape.heights != nullptr) {
+    add_heights(*shape.heights, index);
+    shared_.push_back(shape.heights);
   }
   known_.emplace(std::move(key), index);
   return index;
@@ -115,6 +129,7 @@ Model ModelBuilder::finish() {
   info.frames = 1;
   info.float64_positions = true;
   info.has_orientation = true;
+  if (info.shapes.heights.empty()) info.shapes.height_range.clear();
   drop_lone_owners(info.owner);
   clear_if_all(info.owner, 0u);
   clear_if_all(info.layer, ~0u);

@@ -28,11 +28,18 @@ struct ModelMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
+// Of a height field, as in files.
+struct ModelHeights {
+  std::array<float, 8> params{};
+  std::vector<float> samples;
+};
+
 struct ModelShape {
   ShapeKind kind = ShapeKind::sphere;
   std::array<float, 8> params{};          // as in files
   std::shared_ptr<const ModelMesh> mesh;  // of a mesh or hull; shapes may share it
-  Placement placement;                    // in the body's frame
+  std::shared_ptr<const ModelHeights> heights;
+  Placement placement;  // in the body's frame
 };
 
 struct ModelBody {
@@ -67,10 +74,11 @@ class ModelBuilder {
   uint32_t compound_index(const ModelBody& body);
   uint32_t add_shape(ShapeKind kind, const std::string& name);
   void add_mesh(const ModelMesh& mesh, uint32_t shape);
+  void add_heights(const ModelHeights& heights, uint32_t shape);
 
   Model model_;
-  std::map<std::string, uint32_t> known_;                 // by kind, parameters and mesh
-  std::vector<std::shared_ptr<const ModelMesh>> meshes_;  // keeps addresses in `known_` unique
+  std::map<std::string, uint32_t> known_;            // by kind, parameters, mesh and heights
+  std::vector<std::shared_ptr<const void>> shared_;  // keeps addresses in `known_` unique
 };
 
 }  // namespace carom::io

@@ -278,10 +278,74 @@ TEST_F(MjcfTest, IncludesThatGoWrongAreErrors) {
   EXPECT_EQ(error_in("<include file='wrong.xml'/>"), "wrong.xml:3: <geom>: size must be above 0");
 }
 
+std::vector<float> heights_of(const Model& model, size_t body) {
+  const SceneShapes& shapes = model.info.shapes;
+  const auto [first, count] = shapes.height_range[model.info.body_shape[body]];
+  return {shapes.heights.begin() + first, shapes.heights.begin() + first + count};
+}
+
+// MuJoCo takes the first row of an elevation as that of the greatest y, and spreads the samples
+// from 0 to 1.
+TEST_F(MjcfTest, HeightFields) {
+  const Model model = read(
+      "<geom type='hfield' hfield='hill' pos='1 2 3'/><geom size='1'/>"
+      "<geom type='hfield' hfield='hill'/><geom type='hfield' hfield='flat'/>",
+      "<asset><hfield name='hill' nrow='3' ncol='4' size='3 2 11 0.1' "
+      "elevation='-1 0 1 2 3 4 5 6 7 8 9 10'/>"
+      "<hfield name='flat' nrow='2' ncol='2' size='1 1 1 1'/></asset>");
+  ASSERT_EQ(model.info.bodies, 4u);
+  EXPECT_EQ(kind_of(model, 0), ShapeKind::height_field);
+  EXPECT_EQ(params_of(model, 0), (std::array<float, 8>{4, 3, 2, 2}));
+  EXPECT_TRUE(has_at(model, 0, {0, 0, 0}, {1, 2, 3}));
+  EXPECT_EQ(heights_of(model, 0), (std::vector<float>{8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3}));
+  EXPECT_EQ(model.info.body_shape[0], model.info.body_shape[2]);
+  EXPECT_EQ(heights_of(model, 3), std::vector<float>(4));
+  EXPECT_TRUE(read("<geom size='1'/>").info.shapes.height_range.empty());
+}
+
+TEST_F(MjcfTest, HeightFieldsInFilesOfMuJoCo) {
+  const int32_t counts[] = {2, 3};
+  const float samples[] = {1, 2, 3, 4, 5, 6};
+  std::string bytes(reinterpret_cast<const char*>(counts), sizeof counts);
+  bytes.append(reinterpret_cast<const char*>(samples), sizeof samples);
+  write_file("hill.bin", bytes);
+  const auto asset = [](const std::string& attributes) {
+    return "<asset><hfield file='hill.bin' size='1 1 5 1' " + attributes + "/></asset>";
+  };
+  const std::string geom = "<geom type='hfield' hfield='hill'/>";
+  EXPECT_EQ(heights_of(read(geom, asset("")), 0), (std::vector<float>{0, 1, 2, 3, 4, 5}));
+  for (const size_t length : {size_t{0}, size_t{7}, size_t{8}, bytes.size() - 1}) {
+    write_file("hill.bin", bytes.substr(0, length));
+    EXPECT_THAT(error_in(geom, asset("")), HasSubstr("<hfield>")) << length;
+  }
+  write_file("hill.bin", std::string(8, '\xff') + bytes.substr(8));
+  EXPECT_THAT(error_in(geom, asset("")), HasSubstr("it says -1 rows of -1 samples"));
+}
+
+TEST_F(MjcfTest, WrongHeightFieldsAreErrors) {
+  const auto error_of_asset = [&](const std::string& attributes) {
+    return error_in("<geom type='hfield' hfield='h'/>",
+                    "<asset><hfield name='h' " + attributes + "/></asset>");
+  };
+  EXPECT_THAT(error_of_asset("nrow='2' ncol='2' size='1 1 1 1' elevation='1 2 3'"),
+              HasSubstr("elevation has 3 numbers for 2 rows of 2"));
+  EXPECT_THAT(error_of_asset("nrow='2' size='1 1 1 1'"), HasSubstr("ncol must be a whole number"));
+  EXPECT_THAT(error_of_asset("nrow='1' ncol='2' size='1 1 1 1'"), HasSubstr("nrow must be"));
+  EXPECT_THAT(error_of_asset("nrow='1e6' ncol='1e6' size='1 1 1 1'"), HasSubstr("too many"));
+  EXPECT_THAT(error_of_asset("nrow='2' ncol='2' size='1 1 0 1'"), HasSubstr("size must be four"));
+  EXPECT_THAT(error_of_asset("nrow='2' ncol='2'"), HasSubstr("size must be four"));
+  EXPECT_THAT(error_of_asset("file='a.PNG' size='1 1 1 1'"), HasSubstr("images are not read"));
+  EXPECT_THAT(error_of_asset("file='none.bin' size='1 1 1 1'"), HasSubstr("none.bin"));
+  EXPECT_THAT(error_of_asset("nrow='2' ncol='2' size='1 1 1 1' steep='1'"), HasSubstr("'steep'"));
+  EXPECT_THAT(error_in("<geom type='hfield' hfield='none'/>"),
+              HasSubstr("there is no height field 'none'"));
+}
+
 TEST_F(MjcfTest, WhatIsNotUnderstoodIsAnError) {
-  EXPECT_EQ(error_in("<geom name='g' type='hfield' hfield='h'/>"),
-            "m.xml:2: <geom> 'g': the type 'hfield' is not supported (plane, sphere, capsule, "
-            "ellipsoid, cylinder, box and mesh are)");
+  EXPECT_EQ(
+      error_in("<geom name='g' type='skin'/>"),
+      "m.xml:2: <geom> 'g': the type 'skin' is not supported (plane, hfield, sphere, capsule, "
+      "ellipsoid, cylinder, box and mesh are)");
   EXPECT_THAT(error_in("<geom type='sdf'/>"), HasSubstr("'sdf' is not supported"));
   EXPECT_EQ(error_in("<composite type='rope'/>"), "m.xml:2: <composite>: is not supported");
   EXPECT_THAT(error_in("<body><replicate count='3'/></body>"), HasSubstr("<replicate>"));
