@@ -21,7 +21,7 @@ Every pair of kinds that has a kernel of its own; meshes and compounds are teste
 """
 
 TAIL = """
-All other pairs of cylinders, cones and ellipsoids with convex kinds, each other and half-spaces go one way, in lanes of doubles
+All other pairs of cylinders, cones and ellipsoids with convex kinds and each other go one way, in lanes of doubles
 and, for depths, a pair at a time: [round shapes](design/round_shapes.md#the-general-way-in-lanes). They have manifolds.
 
 Boxes and hulls with a rounding (`rounded_box`, `rounded_hull`) meet the same kinds, and each other, by the tests of their

@@ -76,7 +76,7 @@ class MjcfMeshes {
   MeshLibrary library_;
 };
 
-// What a geom shares with others: of those types alone.
+// Geoms of these types share them.
 struct MjcfAssets {
   std::shared_ptr<const ModelMesh> mesh;
   std::shared_ptr<const ModelHeights> heights;

@@ -36,12 +36,13 @@ void read_file(const std::string& path, const Xml& element, Samples& out, FirstE
   out.columns = static_cast<uint64_t>(std::max(counts[1], 0));
   const Result<uint64_t> size = file->size(path);
   if (!size) return errors.add(element, size.error().message);
-  const uint64_t samples = (*size - sizeof counts) / sizeof(float);
-  if (!are_in_range(out.columns, out.rows) || samples != out.columns * out.rows) {
+  const uint64_t bytes = *size - sizeof counts, samples = bytes / sizeof(float);
+  const bool is_whole = samples == out.columns * out.rows && bytes % sizeof(float) == 0;
+  if (!are_in_range(out.columns, out.rows) || !is_whole) {
     return errors.add(element, quoted_name(path) + " is no height field of MuJoCo's: it says " +
                                    std::to_string(counts[0]) + " rows of " +
                                    std::to_string(counts[1]) + " samples, and holds " +
-                                   std::to_string(samples));
+                                   std::to_string(bytes) + " bytes of them");
   }
   out.values.resize(samples);
   done = file->read_at(sizeof counts, std::as_writable_bytes(std::span(out.values)), path);
@@ -76,7 +77,7 @@ void read_elevation(const Xml& element, Samples& out, FirstError& errors) {
   }
 }
 
-// From 0 to 1, as MuJoCo has them.
+// Scales the samples to 0 to 1, as MuJoCo does. False if they are not finite.
 bool normalize(std::vector<float>& values) {
   const bool are_finite =
       std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });

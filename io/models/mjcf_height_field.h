@@ -1,4 +1,4 @@
-// Height fields of MJCF: assets whose samples stand in the model or in a file of MuJoCo's.
+// Height fields of MJCF: assets whose samples stand in the model or in a file of MuJoCo's format.
 #pragma once
 
 #include <filesystem>

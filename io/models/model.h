@@ -28,7 +28,7 @@ struct ModelMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-// Of a height field, as in files.
+// The parameters and samples of a height field, as in files.
 struct ModelHeights {
   std::array<float, 8> params{};
   std::vector<float> samples;

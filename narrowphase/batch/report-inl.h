@@ -188,10 +188,11 @@ struct LaneReport {
 
   // Whether Tier::fast may keep the float32 answer. Not for triangles: special
   // ones, which the kernel does not test, are unsure. Not for half-spaces, which may be far away.
-  // Not without a unit normal, if the detail stores one.
+  // Not for round shapes: a search that has not ended may be far from the answer. Not without a
+  // unit normal, if the detail stores one.
   static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {
     constexpr auto kNeedsMore = [](ShapeKind kind) {
-      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
+      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace || is_round(kind);
     };
     if constexpr (kNeedsMore(A::kKind) || kNeedsMore(B::kKind)) return no_lanes();
     if constexpr (!kHasContact) return hn::Not(no_lanes());

@@ -44,7 +44,7 @@ inline bool holds(const AxialCore& core, const Vector3<float>& p, float most = k
          dot(across, across) <= reach * reach;
 }
 
-// Whether all of a disc, or of a line of the side, is about as far along n.
+// Whether a whole disc, or a whole line of the side, is furthest along n, but for kFlatTogether.
 struct Spread {
   bool is_disc, is_line;
 
@@ -57,12 +57,12 @@ struct Spread {
   }
 };
 
-// The middle of what two intervals share.
+// The middle of what two intervals share, from the middle of the first.
 inline float middle_of_both(float half_a, float middle_b, float half_b) {
   return 0.5f * (max(-half_a, middle_b - half_b) + min(half_a, middle_b + half_b));
 }
 
-// Where two discs lie on one another: the middle of what they share.
+// Where two discs lie on one another: the middle of what they share, from A's middle.
 inline Vector3<float> between_discs(const AxialCore& a, const AxialCore& b, const Vector3<float>& n,
                                     const Vector3<float>& t) {
   const Vector3<float> aside = part_across(t, a.axis, dot(t, a.axis));

@@ -12,9 +12,10 @@
 //   maxima, so that each of its halves has a search;
 // - two rims: the best in the cone of t and both axes (a projection onto it makes no product
 //   smaller), by Newton's method on the sphere. It starts from sums of the axes and the way between
-//   two caps, and from the ways of either rim to the other shape's furthest point: a few steps from
-//   each of the best that lie apart, and more from the best of these. At a saddle both curvatures
-//   are lowered first, so that the step leads upwards.
+//   two caps, from the ways of either rim to the other shape's furthest point and, of axes that are
+//   nearly parallel, from where the rims cross: a few steps from each of the best that lie apart,
+//   and more from the best of these. At a saddle both curvatures are lowered first, so that the
+//   step leads upwards.
 //
 // Every direction that is tried gives a gap that does part the shapes. A pair is sure if two points
 // face each other along the best one: then no direction has a greater gap, if the shapes are apart.

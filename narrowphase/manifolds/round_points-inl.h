@@ -1,5 +1,8 @@
-// Contact points of overlapping pairs with a cylinder or a cone, in lanes (round_manifold_scalar.h
-// is the scalar form): the corners of the region that their facing sides both cover.
+// Contact points of overlapping pairs with a round shape, in lanes (round_manifold_scalar.h is the
+// scalar form): the corners of the region that their facing sides both cover.
+//
+// contact_points() returns the lanes whose points it knows. The scalar form finds the others: two
+// lines, shapes with a rounding, hulls whose facing face is unknown, flat ellipsoids.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_ROUND_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_ROUND_POINTS_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_ROUND_POINTS_INL_H_
@@ -13,8 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Each function returns the lanes whose points it knows. The scalar form finds the others: two
-// lines, and shapes with a rounding.
 template <class Round>
 HWY_INLINE Mask is_sharp(const Round& shape) {
   return hn::Eq(shape.rounding, splat(0));
@@ -97,7 +98,7 @@ HWY_INLINE Mask contact_points(const HalfspaceLanes&, const RimLanes<kRound>& b,
   return is_sharp(b);
 }
 
-// One point, unless it is flat.
+// An ellipsoid touches in one point, unless it is flat.
 HWY_INLINE Mask contact_points(const HalfspaceLanes&, const EllipsoidLanes& b, const PlacedPair&,
                                const ContactLanes& contact, PointLanes& out) {
   for (size_t k = 0; k < 4; ++k) {

@@ -16,7 +16,8 @@ namespace carom::HWY_NAMESPACE {
 using scalar::kRimCorners;
 using RimSide = FaceSide<PolygonFace<kRimCorners>>;
 
-// `Face`: Rectangle or TriangleFace.
+// Writes a face as a polygon of which the corners after the last repeat the first. `Face`:
+// Rectangle or TriangleFace.
 template <class Face>
 HWY_INLINE void polygon_side(const Face& of, RimSide& side) {
   FaceFrame& frame = side.face.frame;
@@ -33,13 +34,15 @@ HWY_INLINE void polygon_side(const Face& of, RimSide& side) {
   set_bounds(side.face);
 }
 
-// What a cylinder or a cone shows: a disc across z, or a line.
+// A cylinder or a cone shows a disc across z, or a line.
 struct RimView {
   Mask is_disc;
-  F height, side;  // of the disc; the sign of its normal
+  F height;  // of the disc
+  F side;    // the sign of the disc's normal
   F3 line[2];
 };
 
+// The unit vector across z towards `along`; x if there is none.
 HWY_INLINE F3 across_z(const F3& along) {
   const F squared = hn::Add(hn::Mul(along.x, along.x), hn::Mul(along.y, along.y));
   const F inverse = hn::Div(splat(1), hn::Sqrt(squared));
@@ -71,10 +74,10 @@ HWY_INLINE RimView view_of(const ConeLanes& cone, const F3& along) {
           {out * cone.radius - tip, tip}};
 }
 
-// The corner of a rim that is nearest to the deepest point is that point.
+// The corners of a rim, of which the one nearest to the deepest point is moved onto it.
 class RimCornersLanes {
  public:
-  // `deep`: towards the deepest point, in the plane of the disc.
+  // The arguments lead to the deepest point, in the plane of the disc.
   HWY_INLINE RimCornersLanes(F deep_x, F deep_y) {
     const F squared = hn::Add(hn::Mul(deep_x, deep_x), hn::Mul(deep_y, deep_y));
     const F inverse = hn::Div(splat(1), hn::Sqrt(squared));
@@ -108,7 +111,7 @@ class RimCornersLanes {
 };
 
 // Returns the lanes that show a disc. A line counts as three corners, of which the last is the
-// first again; its frame is zero.
+// first again; the axes of its frame are zero.
 template <class Round>
 HWY_INLINE Mask rim_side(const F3& m, const Round& shape, const Placed& placed, RimSide& out) {
   const F zero = splat(0);

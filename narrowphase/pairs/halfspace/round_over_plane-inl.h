@@ -1,4 +1,5 @@
-// Half-space against a round shape, in lanes. Reasons: round_over_plane_scalar.h.
+// Half-space against a round shape, in lanes: each shape has a lowest_point(), as in
+// round_over_plane_scalar.h.
 #if defined(CAROM_NARROWPHASE_PAIRS_HALFSPACE_ROUND_OVER_PLANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_PAIRS_HALFSPACE_ROUND_OVER_PLANE_INL_H_
 #undef CAROM_NARROWPHASE_PAIRS_HALFSPACE_ROUND_OVER_PLANE_INL_H_

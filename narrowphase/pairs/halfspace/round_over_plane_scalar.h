@@ -1,7 +1,7 @@
-// Half-space (A) against a round shape (B): the lowest point, of a disc or a side that lies flat
-// its middle.
+// Half-space (A) against a round shape (B): the lowest point; where a disc or a line lies flat, its
+// middle.
 //
-// Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.2 and 5.2.3 (the least
+// Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.2.2 and 5.2.3 (the least
 // height of a shape over a plane).
 #pragma once
 
@@ -9,9 +9,8 @@
 
 namespace carom::scalar {
 
-// Of a shape without its rounding, in its frame.
-//   lowest_point(shape, n, flat)  n: unit, out of the half-space; points that are less than `flat`
-//                                 higher are as low
+// Each shape has a lowest_point(shape, n, flat), in its frame and without its rounding. n is the
+// unit normal out of the half-space; points that are less than `flat` higher count as well.
 template <class Real>
 struct LowestPoint {
   Real height;  // along n

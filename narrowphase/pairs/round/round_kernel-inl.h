@@ -1,4 +1,4 @@
-// The kernels of round shapes that search for a direction share this.
+// The kernels of round shapes share this.
 #if defined(CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_
 #undef CAROM_NARROWPHASE_PAIRS_ROUND_ROUND_KERNEL_INL_H_

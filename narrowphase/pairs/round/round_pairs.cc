@@ -1,6 +1,6 @@
 // Pairs with a cylinder, a cone or an ellipsoid that have no kernel of their own: as cores in lanes
 // of doubles, and one at a time what those leave. These are depths, manifolds, and pairs with
-// k-DOPs, half-spaces and special triangles.
+// k-DOPs and special triangles.
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -1,5 +1,5 @@
-// Cylinders, cones and ellipsoids against any convex shape, as cores in double precision. Float32
-// leaves all of them to it.
+// Round shapes against any convex shape, as cores in double precision. Float32 leaves all pairs
+// without a kernel to it.
 //
 // Sources: see narrowphase/doubles/gjk.h and penetration_search.h.
 #pragma once

@@ -74,7 +74,7 @@ class ParallelCylinders : public testing::TestWithParam<ParallelCase> {
     return capsule ? capsule->b.z() + capsule->radius : std::get<Cylinder>(shape).half_length;
   }
 
-  // Of B's middle, where A stands upright. B is a little in A, or a little apart.
+  // The place of B's middle, where A stands upright. B is a little in A, or a little apart.
   Vector3d place(const TestPair& pair) {
     const double radii = radius_of(pair.a.shape) + radius_of(pair.b.shape);
     const double heights = height_of(pair.a.shape) + height_of(pair.b.shape);

@@ -231,14 +231,14 @@ TEST(FastTier, ErrsNearTouchAlone) {
   EXPECT_GT(wrong, 0u);
 }
 
-// Triangles and half-spaces are as in the standard tier.
+// Triangles, half-spaces and round shapes are as in the standard tier.
 TEST(FastTier, LeavesOtherKindsAlone) {
   auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8,
-                                     solved_kind_pairs());
+                                     supported_kind_pairs());
   std::erase_if(pairs, [](const TestPair& pair) {
     const auto is_other = [](const PlacedShape& body) {
       const ShapeKind kind = kind_of(body.shape);
-      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
+      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace || is_round(kind);
     };
     return !is_other(pair.a) && !is_other(pair.b);
   });
