@@ -67,9 +67,9 @@ TEST_F(WithModels, OtherCommandsTakeThem) {
 
 TEST_F(WithModels, Errors) {
   std::ofstream(path("bad.xml"))
-      << "<mujoco>\n<worldbody>\n<geom type='hfield'/></worldbody></mujoco>";
+      << "<mujoco>\n<worldbody>\n<geom type='sdf'/></worldbody></mujoco>";
   for (const char* command : {"run", "check", "verify"}) {
-    expect_error({command, path("bad.xml")}, {"bad.xml:3: <geom>", "'hfield' is not supported"});
+    expect_error({command, path("bad.xml")}, {"bad.xml:3: <geom>", "'sdf' is not supported"});
   }
   expect_error({"run", path("none.urdf")}, {"none.urdf"});
   std::ofstream(path("other.xml")) << "<sdf/>";
