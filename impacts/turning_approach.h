@@ -14,6 +14,7 @@
 
 #include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
+#include "narrowphase/doubles/make_core.h"
 #include "narrowphase/doubles/plain_simplex.h"
 
 namespace carom::scalar {
@@ -64,7 +65,7 @@ class TurningApproach {
 
   static Vector3d turned(const MovingCore& core, const Rotation<double>& turn,
                          const Vector3d& point) {
-    return core.turns ? Vector3d(rotate(turn, point)) : point;
+    return core.turns ? eigen_vector(rotated_core_vector(turn, point)) : point;
   }
   static Vector3d velocity(const MovingCore& core, const Vector3d& turned_point,
                            const Vector3d& arm) {

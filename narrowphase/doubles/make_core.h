@@ -68,16 +68,22 @@ void make_core(const S& shape, const Quaternion<double>& q, const Vector3d& offs
   core.middle = core_vector(offset);
 }
 
+// As rotate(), without Eigen's loops, which compilers do not inline in long functions.
+inline CoreVector rotated_core_vector(const Rotation<double>& turn, const Vector3d& v) {
+  return (core_vector(turn.x) * v.x() + core_vector(turn.y) * v.y()) + core_vector(turn.z) * v.z();
+}
+
 inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,
                              const Rotation<double>& turn, const Vector3d& offset, Core& core) {
   core.resize(8);
+  const CoreVector way = core_vector(offset);
   for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
     const Vector3d corner((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
                           (i & 4 ? upper : lower).z());
-    core.set(i, core_vector(rotate(turn, corner) + offset));
+    core.set(i, rotated_core_vector(turn, corner) + way);
   }
   core.radius = 0;
-  core.middle = core_vector(rotate(turn, Vector3d((lower + upper) / 2)) + offset);
+  core.middle = rotated_core_vector(turn, Vector3d((lower + upper) / 2)) + way;
 }
 
 inline void make_core(const AabbShape<double>& box, const Quaternion<double>&,
@@ -92,17 +98,6 @@ inline void make_core(const BoxShape<double>& box, const Quaternion<double>& q,
   core.radius = box.rounding;
 }
 
-// `middle`: of the points, without the offset.
-template <class Points>
-void make_core_of_points(const Points& points, const Vector3d& middle, const Vector3d& offset,
-                         Core& core) {
-  core.resize(points.size());
-  for (size_t i = 0; i < points.size(); ++i) core.set(i, core_vector(points[i] + offset));
-  core.pad();
-  core.radius = 0;
-  core.middle = core_vector(middle + offset);
-}
-
 template <class Points>
 Vector3d middle_of_points(const Points& points) {
   Vector3d sum = Vector3d::Zero();
@@ -115,7 +110,11 @@ inline Vector3d middle_of(const TriangleShape<double>& triangle) {
 
 template <class Points>
 void make_core_of_points(const Points& points, const Vector3d& offset, Core& core) {
-  make_core_of_points(points, middle_of_points(points), offset, core);
+  core.resize(points.size());
+  for (size_t i = 0; i < points.size(); ++i) core.set(i, core_vector(points[i] + offset));
+  core.pad();
+  core.radius = 0;
+  core.middle = core_vector(middle_of_points(points) + offset);
 }
 
 inline void make_core(const TriangleShape<double>& triangle, const Quaternion<double>& q,
@@ -124,9 +123,14 @@ inline void make_core(const TriangleShape<double>& triangle, const Quaternion<do
     return make_core_of_points(polytope_of(triangle, q).points, offset, core);
   }
   const Rotation<double> turn = rotation_of(q);
-  std::array<Vector3d, 3> corners;
-  for (size_t i = 0; i < 3; ++i) corners[i] = rotate(turn, triangle.corners[i]);
-  make_core_of_points(corners, rotate(turn, middle_of(triangle)), offset, core);
+  const CoreVector way = core_vector(offset);
+  core.resize(3);
+  for (size_t i = 0; i < 3; ++i) {
+    core.set(i, rotated_core_vector(turn, triangle.corners[i]) + way);
+  }
+  core.pad();
+  core.radius = 0;
+  core.middle = rotated_core_vector(turn, middle_of(triangle)) + way;
 }
 
 inline void make_core(const DopShape<double>& dop, const Quaternion<double>& q,
