@@ -7,7 +7,7 @@
 #define CAROM_NARROWPHASE_FEATURES_AXIAL_CORE_INL_H_
 #endif
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "simd/lanes-inl.h"
 #include "simd/rotation-inl.h"
 

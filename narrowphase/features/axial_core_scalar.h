@@ -1,7 +1,7 @@
 // Cylinders and segments about zero, and where two that are nearly parallel touch, scalar form.
 #pragma once
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {

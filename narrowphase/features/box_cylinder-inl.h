@@ -12,6 +12,7 @@
 #include "base/tolerances.h"
 #include "narrowphase/features/box_cylinder_scalar.h"
 #include "narrowphase/features/edge_arc-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/solid_contact-inl.h"
 #include "simd/compress-inl.h"
 #include "simd/rotation-inl.h"

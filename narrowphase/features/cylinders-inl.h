@@ -12,6 +12,7 @@
 #include "base/tolerances.h"
 #include "narrowphase/features/axial_core-inl.h"
 #include "narrowphase/features/edge_arc-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/segment-inl.h"
 #include "narrowphase/features/start_directions-inl.h"
 #include "simd/rotation-inl.h"

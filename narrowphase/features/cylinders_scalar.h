@@ -25,8 +25,8 @@
 
 #include <array>
 
-#include "base/tolerances.h"
 #include "narrowphase/features/axial_core_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/segment_scalar.h"
 #include "narrowphase/features/start_directions_scalar.h"
 #include "narrowphase/scalar/vector.h"

@@ -9,8 +9,8 @@
 
 #include <array>
 
-#include "base/tolerances.h"
 #include "narrowphase/features/edge_arc_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <span>
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {

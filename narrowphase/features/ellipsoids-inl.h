@@ -9,8 +9,8 @@
 
 #include <array>
 
-#include "base/tolerances.h"
 #include "narrowphase/features/ellipsoids_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/start_directions-inl.h"
 #include "simd/rotation-inl.h"
 

@@ -14,7 +14,7 @@
 
 #include <array>
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/start_directions_scalar.h"
 #include "narrowphase/scalar/vector.h"
 

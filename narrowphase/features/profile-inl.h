@@ -8,6 +8,7 @@
 #endif
 
 #include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/rounded-inl.h"
 #include "simd/rotation-inl.h"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/rounded_scalar.h"
 #include "narrowphase/scalar/vector.h"
 

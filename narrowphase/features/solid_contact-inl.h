@@ -9,6 +9,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/features/cylinders-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/solid_contact_scalar.h"
 #include "simd/rotation-inl.h"
 

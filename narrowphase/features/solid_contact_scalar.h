@@ -4,6 +4,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/features/cylinders_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/separation.h"
 #include "narrowphase/scalar/vector.h"
 

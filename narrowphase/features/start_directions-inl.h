@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "base/tolerances.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/vector.h"
 
 namespace carom::scalar {

@@ -12,6 +12,7 @@
 #include <bit>
 
 #include "narrowphase/features/edge_arc-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/solid_contact-inl.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
 #include "narrowphase/hulls/solid_cylinder.h"

@@ -16,6 +16,7 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/features/edge_arc_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/features/solid_contact_scalar.h"
 #include "narrowphase/hulls/solid.h"
 #include "narrowphase/scalar/vector.h"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "narrowphase/features/cylinders_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/separation.h"
 #include "narrowphase/scalar/shapes.h"
 

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/features/ellipsoids-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/pairs/round/round_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();

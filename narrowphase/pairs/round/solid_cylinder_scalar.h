@@ -5,6 +5,7 @@
 #pragma once
 
 #include "narrowphase/doubles/convex.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/hulls/solid_cylinder_scalar.h"
 
 namespace carom::scalar {

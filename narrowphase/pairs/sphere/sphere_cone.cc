@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/profile-inl.h"
+#include "narrowphase/features/round_tolerances.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "narrowphase/features/profile_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/shapes.h"
 
 namespace carom::scalar {

@@ -7,7 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/profile-inl.h"
-#include "narrowphase/pairs/sphere/sphere_ellipsoid_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -65,8 +65,7 @@ HWY_INLINE Mask is_at_thin_rim(const F3& semi_axes, const EllipsoidSearch& searc
       hn::Add(of_rim(semi_axes.x, gradient.x, beyond.x), of_rim(semi_axes.y, gradient.y, beyond.y)),
       of_rim(semi_axes.z, gradient.z, beyond.z));
   const F most = max(max(beyond.x, beyond.y), beyond.z);
-  return hn::And(hn::Lt(search.s, hn::Mul(splat(scalar::kThinRim), most)),
-                 hn::Gt(sum, splat(scalar::kMostOfSum)));
+  return hn::And(hn::Lt(search.s, hn::Mul(splat(kThinRim), most)), hn::Gt(sum, splat(kMostOfSum)));
 }
 
 HWY_INLINE WayOutLanes way_out_of_ellipsoid(const F3& semi_axes, const F3& point) {

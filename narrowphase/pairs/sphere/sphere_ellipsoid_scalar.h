@@ -11,6 +11,7 @@
 #pragma once
 
 #include "narrowphase/features/profile_scalar.h"
+#include "narrowphase/features/round_tolerances.h"
 #include "narrowphase/scalar/shapes.h"
 
 namespace carom::scalar {
@@ -48,11 +49,6 @@ struct EllipsoidSearch {
     is_found = std::fabs(sum - 1) <= kNearSurface;
   }
 };
-
-// Near the rim of a thin ellipsoid s is a difference of squares that rounding has left few digits:
-// it is a smaller share of them than this, and they make most of the sum.
-inline constexpr float kThinRim = 0x1p-12f;
-inline constexpr float kMostOfSum = 0.75f;
 
 inline bool is_at_thin_rim(const Vector3<float>& semi_axes, const EllipsoidSearch& search,
                            const Vector3<float>& gradient) {
