@@ -43,6 +43,7 @@ void register_all(const Options& options) {
   register_memory();
   register_bounds();
   register_dop_bounds();
+  register_loads();
   register_find_pairs(options);
   register_narrowphase(options);
   register_impacts(options);

@@ -18,7 +18,7 @@ cmake --build $tree --target carom_build_info_header carom_precompiled carom_pre
 rooms='simd|base|shapes|trees|bounds|geometries|broadphase|narrowphase|midphase|impacts|queries|world|reference|hulls|ladders|io|cli'
 # The analyzer follows each function through at most so many states, and does not look into the
 # functions of the standard library, in which it would spend most of them and two fifths of the time.
-analyzer=(max-nodes=40000 c++-stdlib-inlining=false)
+analyzer=(max-nodes=100000 c++-stdlib-inlining=false)
 options=$(printf -- '--extra-arg=-Xclang\n--extra-arg=-analyzer-config\n--extra-arg=-Xclang\n--extra-arg=%s\n' \
   "${analyzer[@]}")
 # Files compiled once for every instruction set (foreach_target.h) are left out: clang-tidy sees

@@ -14,6 +14,7 @@ void register_clock();
 void register_memory();
 void register_bounds();
 void register_dop_bounds();
+void register_loads();
 void register_find_pairs(const Options& options);
 void register_narrowphase(const Options& options);
 void register_impacts(const Options& options);

@@ -9,7 +9,7 @@
 #endif
 
 #include "carom/shapes/shape.h"
-#include "simd/lanes-inl.h"
+#include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {

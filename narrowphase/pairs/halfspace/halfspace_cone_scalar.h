@@ -21,14 +21,4 @@ LowestPoint<Real> lowest_point(const ConeShape<Real>& cone, const Vector3<Real>&
   return {is_rim ? of_rim : of_tip, lies ? (rim + tip) * Real(0.5) : is_rim ? rim : tip};
 }
 
-inline Separation separation(const HalfspaceShape<float>& halfspace, const ConeShape<float>& cone,
-                             const PairPose<float>& pose) {
-  return round_over_plane(halfspace, cone, pose);
-}
-inline SeparationAs<double> separation(const HalfspaceShape<double>& halfspace,
-                                       const ConeShape<double>& cone,
-                                       const PairPose<double>& pose) {
-  return round_over_plane(halfspace, cone, pose);
-}
-
 }  // namespace carom::scalar

@@ -20,14 +20,4 @@ LowestPoint<Real> lowest_point(const CylinderShape<Real>& cylinder, const Vector
   return {-(of_disc + of_axis), {n.x() * out, n.y() * out, end}};
 }
 
-inline Separation separation(const HalfspaceShape<float>& halfspace,
-                             const CylinderShape<float>& cylinder, const PairPose<float>& pose) {
-  return round_over_plane(halfspace, cylinder, pose);
-}
-inline SeparationAs<double> separation(const HalfspaceShape<double>& halfspace,
-                                       const CylinderShape<double>& cylinder,
-                                       const PairPose<double>& pose) {
-  return round_over_plane(halfspace, cylinder, pose);
-}
-
 }  // namespace carom::scalar

@@ -16,14 +16,4 @@ LowestPoint<Real> lowest_point(const EllipsoidShape<Real>& ellipsoid, const Vect
   return {-height, ellipsoid.semi_axes.cwiseProduct(reach * share)};
 }
 
-inline Separation separation(const HalfspaceShape<float>& halfspace,
-                             const EllipsoidShape<float>& ellipsoid, const PairPose<float>& pose) {
-  return round_over_plane(halfspace, ellipsoid, pose);
-}
-inline SeparationAs<double> separation(const HalfspaceShape<double>& halfspace,
-                                       const EllipsoidShape<double>& ellipsoid,
-                                       const PairPose<double>& pose) {
-  return round_over_plane(halfspace, ellipsoid, pose);
-}
-
 }  // namespace carom::scalar

@@ -17,18 +17,32 @@ struct LowestPoint {
   Vector3<Real> point;
 };
 
-template <class Real, class Round>
+template <class Round, class Real>
+concept HasLowestPoint = requires(Round shape, Vector3<Real> n, Real flat) {
+  lowest_point(shape, n, flat);
+};
+
+// lowest_of(n, flat): the lowest point of the shape.
+template <class Real, class Round, class LowestOf>
 SeparationAs<Real> round_over_plane(const HalfspaceShape<Real>& halfspace, const Round& shape,
-                                    const PairPose<Real>& pose) {
+                                    const PairPose<Real>& pose, const LowestOf& lowest_of) {
   const Vector3<Real> d = -pose.d;
   const Plane<Real> plane = plane_of(halfspace, pose.a, d);
   const Rotation<Real> turn = rotation_of(pose.b);
   const Real size = shape.size();
   const Vector3<Real> normal = rotate_back(turn, plane.normal);
-  const LowestPoint<Real> low = lowest_point(shape, normal, Real(kLyingFlat) * size);
+  const LowestPoint<Real> low = lowest_of(normal, Real(kLyingFlat) * size);
   const Vector3<Real> lowest = rotate(turn, low.point) - plane.normal * shape.rounding;
   const Real separation = (low.height - plane.height) - shape.rounding;
   return flipped(over_plane(plane, separation, lowest, size, d));
+}
+
+template <class Real, class Round>
+requires HasLowestPoint<Round, Real> SeparationAs<Real> separation(
+    const HalfspaceShape<Real>& halfspace, const Round& shape, const PairPose<Real>& pose) {
+  return round_over_plane(halfspace, shape, pose, [&shape](const Vector3<Real>& n, Real flat) {
+    return lowest_point(shape, n, flat);
+  });
 }
 
 }  // namespace carom::scalar

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "narrowphase/doubles/ruled_core.h"
-#include "narrowphase/features/halfspace_scalar.h"
+#include "narrowphase/pairs/halfspace/round_over_plane_scalar.h"
 
 namespace carom::scalar {
 
@@ -29,29 +29,31 @@ requires(HasCore<A>&& HasCore<B>) {
   return core_separation(a, b, pose, CoreTest{});
 }
 
-// The lowest point of the round shape. Of a disc or a side that lies flat, its middle. The plane is
-// as far from the core as without a rounding.
-template <RoundShape B>
-SeparationAs<double> separation(const HalfspaceShape<double>& halfspace, const B& b,
-                                const PairPose<double>& pose) {
-  const Vector3d d = -pose.d;
-  const Plane<double> plane = plane_of(halfspace, pose.a, d);
+// The lowest point of any round shape, by its core, as lowest_point() gives it.
+template <RoundShape S>
+LowestPoint<double> lowest_point_of_core(const S& shape, const Vector3d& n, double flat) {
   Core core;
-  make_core(b, pose.b, Vector3d::Zero(), core);
-  const CoreVector down = core_vector(-plane.normal);
-  const double least = dot(plane.normal, eigen_vector(core.furthest_round(down)));
-  const Meeting::Points lowest = furthest_round_points(core, down, kLyingFlat * b.size());
+  make_core(shape, {Vector3d::Zero(), 1}, Vector3d::Zero(), core);
+  const CoreVector down = core_vector(-n);
+  const Meeting::Points lowest = furthest_round_points(core, down, flat);
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& p : lowest) sum += p;
-  SeparationAs<double> result = flipped(over_plane<double>(
-      plane, least - plane.height, sum * (1.0 / static_cast<double>(lowest.size())), b.size(), d));
-  result.separation -= core.radius;
-  result.arm_b -= result.normal * core.radius;
-  return result;
+  return {dot(n, eigen_vector(core.furthest_round(down))),
+          sum * (1.0 / static_cast<double>(lowest.size()))};
+}
+
+// Shapes without a kernel over half-spaces.
+template <RoundShape B>
+requires(!HasLowestPoint<B, double>) SeparationAs<double> separation(
+    const HalfspaceShape<double>& halfspace, const B& b, const PairPose<double>& pose) {
+  return round_over_plane(halfspace, b, pose, [&b](const Vector3d& n, double flat) {
+    return lowest_point_of_core(b, n, flat);
+  });
 }
 
 template <class A, class B>
-requires(RoundShape<A> || RoundShape<B>) Separation
+requires((RoundShape<A> ||
+          RoundShape<B>)&&!(kIsHalfspace<A> && HasLowestPoint<B, float>)) Separation
     separation(const A&, const B&, const PairPose<float>&) {
   return not_in_float<float>();
 }

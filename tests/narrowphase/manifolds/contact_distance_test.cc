@@ -33,7 +33,7 @@ TEST_P(DistanceManifolds, EqualTheReference) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds) + ", " + name(positions));
       std::vector<TestPair> pairs =
-          make_kind_pairs(GetParam(), kinds, positions, fewer_if_slow(kinds, rounds_of_pairs(40)));
+          make_kind_pairs(GetParam(), kinds, positions, rounds_of_pairs(40));
       vary_triangles(pairs);
       for (const float distance : {0.01f, 1.0f, 1e20f}) {
         const auto results = results_of(pairs, positions, distance);
