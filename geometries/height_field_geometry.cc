@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/float_environment.h"
+#include "base/fresh_pages.h"
 #include "geometries/height_field_limits.h"
 #include "geometries/height_pyramid.h"
 #include "geometries/inner_edges.h"
@@ -134,7 +135,9 @@ class HeightFieldMaker {
     field.samples_ = given.first;
     field.row_stride_ = given.stride;
     if (!grid.borrow) {
-      field.own_samples_ = std::make_unique_for_overwrite<std::byte[]>(given.row_bytes * grid.ny);
+      const size_t bytes = given.row_bytes * grid.ny;
+      field.own_samples_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+      prepare_pages(field.own_samples_.get(), bytes);
       field.samples_ = field.own_samples_.get();
       field.row_stride_ = static_cast<ptrdiff_t>(given.row_bytes);
     }
